@@ -62,12 +62,16 @@ ShapeExtent part_extent(const PlacedShape& part) {
 }
 
 Bounds swept_bounds(const ShapeExtent& extent, const Pose& from, const Pose& to) {
+    const Bounds end = transformed(extent.box, to);
+    if (from.position == to.position && from.rotation.coeffs() == to.rotation.coeffs()) {
+        return end.grown(k_rounding_m);
+    }
     // A point that moves along an arc of radius R and angle phi stays within R phi^2 / 8 (the
     // sagitta) of the chord. The box grows by twice the sagitta, because a sweep interpolates in
-    // the other body's frame, where the point moves along another arc.
-    const double angle_rad = rotation_to_vector(from.rotation.conjugate() * to.rotation).norm();
-    const Bounds box = transformed(extent.box, from).joined(transformed(extent.box, to));
-    return box.grown(extent.radius_m * angle_rad * angle_rad / 4.0 + k_rounding_m);
+    // the other body's frame, where the point moves along another arc. phi <= pi sin(phi / 2).
+    const double square = (from.rotation.conjugate() * to.rotation).vec().squaredNorm();
+    const double sagitta_m = extent.radius_m * k_pi * k_pi * square / 8.0;
+    return transformed(extent.box, from).joined(end).grown(2.0 * sagitta_m + k_rounding_m);
 }
 
 }  // namespace handhold

@@ -14,6 +14,13 @@ btDbvtVolume to_volume(const Bounds& bounds) {
     return btDbvtVolume::FromMM(to_bullet(bounds.low), to_bullet(bounds.high));
 }
 
+// A leaf's box is larger than the body's bounds by this share of the body's radius, on each side. A
+// body that drifts changes the tree only when it leaves that box.
+constexpr double k_slack_share = 0.2;
+// A leaf's box is replaced if it exceeds the bounds by more than this many times that slack: the
+// body was fast and has become slow.
+constexpr double k_max_slacks = 4.0;
+
 bool has_shape(const ColliderProxy& proxy) { return proxy.shape != k_no_shape; }
 
 // True if `bodies` are exactly the proxies that have a shape, in the same order.
@@ -49,7 +56,14 @@ void Broadphase::place(BroadphaseBody& body, const ShapeExtent& extent) {
         return;
     }
     body.bounds_ws = swept_bounds(extent, body.proxy.from_ws, body.proxy.to_ws);
-    btDbvtVolume volume = to_volume(body.bounds_ws);
+    const double slack_m = k_slack_share * extent.radius_m;
+    if (body.leaf != nullptr && contains(body.leaf_ws, body.bounds_ws) &&
+        contains(body.bounds_ws.grown(k_max_slacks * slack_m), body.leaf_ws)) {
+        return;
+    }
+    body.leaf_ws = body.bounds_ws.grown(slack_m);
+    note_moved_leaf(body);
+    btDbvtVolume volume = to_volume(body.leaf_ws);
     if (body.leaf == nullptr && !parked_.empty()) {
         body.leaf = parked_.back();
         parked_.pop_back();
@@ -58,6 +72,17 @@ void Broadphase::place(BroadphaseBody& body, const ShapeExtent& extent) {
         body.leaf = tree_.insert(volume, nullptr);
     } else {
         tree_.update(body.leaf, volume);
+    }
+}
+
+// Nothing is noted while all lists are outdated anyway.
+void Broadphase::note_moved_leaf(const BroadphaseBody& body) {
+    if (moved_leaves_.size() > bodies_.size()) {
+        neighbour_margin_m_ = -1.0;
+        moved_leaves_.clear();
+    }
+    if (neighbour_margin_m_ >= 0.0) {
+        moved_leaves_.push_back(static_cast<std::size_t>(&body - bodies_.data()));
     }
 }
 
@@ -91,14 +116,13 @@ void Broadphase::match_bodies(std::span<const ColliderProxy> proxies) {
     }
     bodies_.swap(next_bodies_);
     indices_changed_ = true;
+    neighbour_margin_m_ = -1.0;
 }
 
 std::size_t Broadphase::find_index(std::uint64_t id) const {
-    const auto found = std::ranges::lower_bound(
-        bodies_, id, {}, [](const BroadphaseBody& body) { return body.proxy.id; });
-    return found != bodies_.end() && found->proxy.id == id
-               ? static_cast<std::size_t>(found - bodies_.begin())
-               : bodies_.size();
+    const auto found = std::ranges::lower_bound(ids_, id);
+    return found != ids_.end() && *found == id ? static_cast<std::size_t>(found - ids_.begin())
+                                               : bodies_.size();
 }
 
 void Broadphase::finish_pass() {
@@ -122,6 +146,9 @@ void Broadphase::replace(BroadphaseBody& body, const ColliderProxy& proxy,
         body.was_placed = body.leaf != nullptr;
         body.old_bounds_ws = body.bounds_ws;
         changed_.push_back(static_cast<std::uint32_t>(&body - bodies_.data()));
+    }
+    if (body.proxy.free != proxy.free) {
+        note_moved_leaf(body);
     }
     body.proxy = proxy;
     body.stamp = ++changes_;
@@ -149,6 +176,12 @@ void Broadphase::set_proxies(std::span<const ColliderProxy> proxies,
                              std::span<const ShapeExtent> extents) {
     if (!matches(bodies_, proxies)) {
         match_bodies(proxies);
+        ids_.clear();
+        for (const ColliderProxy& proxy : proxies) {
+            if (has_shape(proxy)) {
+                ids_.push_back(proxy.id);
+            }
+        }
     }
     auto body = bodies_.begin();
     for (const ColliderProxy& proxy : proxies) {
@@ -171,7 +204,8 @@ void Broadphase::set_isolated(std::size_t body, const Bounds& box_ws) {
 }
 
 // The result is sorted, because the order of traversal depends on the tree's history.
-std::span<const std::size_t> Broadphase::find(const Bounds& box, BroadphaseScratch& scratch) const {
+std::span<const std::size_t> Broadphase::find_leaves(const Bounds& box,
+                                                     BroadphaseScratch& scratch) const {
     struct Collector final : btDbvt::ICollide {
         explicit Collector(std::vector<std::size_t>& list) : found(list) {}
         void Process(const btDbvtNode* leaf) override {
@@ -186,6 +220,80 @@ std::span<const std::size_t> Broadphase::find(const Bounds& box, BroadphaseScrat
     Collector collector(scratch.found);
     tree_.collideTVNoStackAlloc(tree_.m_root, to_volume(box), scratch.stack, collector);
     std::sort(scratch.found.begin(), scratch.found.end());
+    return scratch.found;
+}
+
+std::span<const std::size_t> Broadphase::find(const Bounds& box, BroadphaseScratch& scratch) const {
+    find_leaves(box, scratch);
+    std::erase_if(scratch.found, [this, &box](std::size_t index) {
+        return !overlaps(bodies_[index].bounds_ws, box);
+    });
+    return scratch.found;
+}
+
+void Broadphase::add_neighbour(std::size_t body, std::size_t other, double margin_m) {
+    constexpr std::size_t k_many = 64;
+    std::vector<std::size_t>& list = neighbours_[body];
+    const auto place = std::ranges::lower_bound(list, other);
+    if (place != list.end() && *place == other) {
+        return;
+    }
+    list.insert(place, other);
+    if (list.size() % k_many == 0) {  // drops the bodies that have left
+        const Bounds near_ws = bodies_[body].leaf_ws.grown(margin_m);
+        std::erase_if(list, [this, &near_ws](std::size_t index) {
+            return !overlaps(bodies_[index].leaf_ws, near_ws);
+        });
+    }
+}
+
+void Broadphase::update_neighbours(double margin_m, BroadphaseScratch& scratch) {
+    constexpr std::size_t k_usual_neighbours = 16;
+    if (margin_m != neighbour_margin_m_) {
+        neighbour_margin_m_ = margin_m;
+        neighbours_.resize(std::max(neighbours_.size(), bodies_.size()));
+        moved_leaves_.reserve(bodies_.size() + 1);
+        moved_leaves_.clear();
+        for (std::size_t i = 0; i < bodies_.size(); ++i) {
+            neighbours_[i].clear();
+            neighbours_[i].reserve(k_usual_neighbours);
+            moved_leaves_.push_back(i);
+        }
+    }
+    for (const std::size_t moved : moved_leaves_) {
+        neighbours_[moved].clear();
+        if (bodies_[moved].leaf == nullptr) {
+            continue;
+        }
+        const bool is_free = bodies_[moved].proxy.free;
+        for (const std::size_t other :
+             find_leaves(bodies_[moved].leaf_ws.grown(margin_m), scratch)) {
+            if (is_free) {
+                neighbours_[moved].push_back(other);
+            }
+            if (bodies_[other].proxy.free && other != moved) {
+                add_neighbour(other, moved, margin_m);
+            }
+        }
+    }
+    moved_leaves_.clear();
+}
+
+std::span<const std::size_t> Broadphase::find_around(std::size_t body, const Bounds& box,
+                                                     double margin_m, BroadphaseScratch& scratch) {
+    if (!bodies_[body].proxy.free || bodies_[body].leaf == nullptr ||
+        !contains(bodies_[body].leaf_ws.grown(margin_m), box)) {
+        return find(box, scratch);
+    }
+    if (!moved_leaves_.empty() || margin_m != neighbour_margin_m_) {
+        update_neighbours(margin_m, scratch);
+    }
+    scratch.found.clear();
+    for (const std::size_t other : neighbours_[body]) {
+        if (bodies_[other].leaf != nullptr && overlaps(bodies_[other].bounds_ws, box)) {
+            scratch.found.push_back(other);
+        }
+    }
     return scratch.found;
 }
 

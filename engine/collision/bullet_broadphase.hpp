@@ -17,6 +17,7 @@ struct BroadphaseBody {
     ColliderProxy proxy;
     Bounds bounds_ws;            // swept, from from_ws to to_ws
     btDbvtNode* leaf = nullptr;  // null: not in the tree, because a pose is invalid
+    Bounds leaf_ws;              // box of the leaf: contains bounds_ws, with slack
     std::uint64_t stamp = 0;     // change counter at this body's last change
     // Free bodies only: a region around the body that no partner's bounds reach into, unless the
     // partner changed after change number `isolated_since`. Partners are all non-free bodies and
@@ -70,6 +71,11 @@ class Broadphase {
     // the scratch is used again. Thread-safe if each thread uses its own scratch.
     std::span<const std::size_t> find(const Bounds& box, BroadphaseScratch& scratch) const;
 
+    // Same result as find(box) for a box within a free body's leaf box grown by `margin_m`, mostly
+    // without a query of the tree: see neighbours_. Not thread-safe.
+    std::span<const std::size_t> find_around(std::size_t body, const Bounds& box, double margin_m,
+                                             BroadphaseScratch& scratch);
+
     // Length of the longest path in the tree.
     int depth() const { return btDbvt::maxdepth(tree_.m_root); }
 
@@ -80,8 +86,13 @@ class Broadphase {
     void replace(BroadphaseBody& body, const ColliderProxy& proxy, const ShapeExtent& extent);
     void place(BroadphaseBody& body, const ShapeExtent& extent);
     void park(BroadphaseBody& body);
+    void note_moved_leaf(const BroadphaseBody& body);
+    std::span<const std::size_t> find_leaves(const Bounds& box, BroadphaseScratch& scratch) const;
+    void update_neighbours(double margin_m, BroadphaseScratch& scratch);
+    void add_neighbour(std::size_t body, std::size_t other, double margin_m);
 
     std::vector<BroadphaseBody> bodies_;
+    std::vector<std::uint64_t> ids_;           // ids of bodies_, close together for find_index
     std::vector<BroadphaseBody> next_bodies_;  // double buffer of match_bodies
     btDbvt tree_;
     // Unused leaves. They stay in the tree, because Bullet frees the memory of removed leaves.
@@ -90,6 +101,12 @@ class Broadphase {
     std::uint64_t changes_ = 0;
     std::vector<std::uint32_t> changed_;
     bool indices_changed_ = true;
+    // Of each free body: at least the bodies whose leaf boxes overlap its own grown by
+    // neighbour_margin_m_, ascending. A leaf box that changes is searched for once, by the next
+    // update_neighbours; until then its body is in moved_leaves_.
+    std::vector<std::vector<std::size_t>> neighbours_;
+    std::vector<std::size_t> moved_leaves_;
+    double neighbour_margin_m_ = -1.0;  // negative: all lists are outdated
 };
 
 }  // namespace handhold

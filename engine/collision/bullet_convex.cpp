@@ -162,6 +162,12 @@ Shape core_of(const Shape& shape) {
 
 Vec3 Convex::support(const Vec3& direction) const {
     const btVector3 local = to_bullet(direction) * pose_ns.getBasis();
+    if (box_half_m != nullptr) {
+        const btVector3 corner(local.x() >= 0.0 ? box_half_m->x() : -box_half_m->x(),
+                               local.y() >= 0.0 ? box_half_m->y() : -box_half_m->y(),
+                               local.z() >= 0.0 ? box_half_m->z() : -box_half_m->z());
+        return from_bullet(pose_ns * corner);
+    }
     return from_bullet(pose_ns * shape->localGetSupportVertexWithoutMarginNonVirtual(local));
 }
 
@@ -210,6 +216,9 @@ ConvexShape::ConvexShape(const Shape& shape)
     if (shape.kind == ShapeKind::cylinder) {
         barrel_ = {shape.radius_m, shape.half_height_m};
     }
+    if (shape.kind == ShapeKind::box) {
+        box_half_m_ = shape.half_m;
+    }
 }
 
 Convex ConvexShape::at(const Pose& pose_ns) const {
@@ -220,7 +229,8 @@ Convex ConvexShape::at(const Pose& pose_ns) const {
             to_bullet(pose_ns),
             radius_m_,
             nullptr,
-            barrel_.radius_m > 0.0 ? &barrel_ : nullptr};
+            barrel_.radius_m > 0.0 ? &barrel_ : nullptr,
+            box_half_m_.x() > 0.0 ? &box_half_m_ : nullptr};
 }
 
 void ConvexShape::set_sphere_radius(double radius_m) {
@@ -278,7 +288,7 @@ Convex TriangleShape::place(const Corners& corners_ns, const Vec3& unit_normal) 
         plane[2] = outward.z();
         plane[3] = -outward.dot(corners_ns[0]);
     }
-    return {&shape_, &faces_, &faces_, btTransform::getIdentity(), 0.0, &corners_ns_, nullptr};
+    return {&shape_, &faces_, &faces_, btTransform::getIdentity(), 0.0, &corners_ns_};
 }
 
 }  // namespace handhold

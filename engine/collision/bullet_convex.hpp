@@ -37,6 +37,7 @@ struct Convex {
     double radius_m = 0.0;
     const Corners* corners_ns = nullptr;  // triangle: its corners; null otherwise
     const Barrel* barrel = nullptr;       // cylinder: its curved side; null otherwise
+    const Vec3* box_half_m = nullptr;     // box: its half extents; null otherwise
 
     Vec3 centre_ns() const { return from_bullet(pose_ns.getOrigin()); }  // a point inside the core
     // Support point of the core: its farthest point along `direction`.
@@ -70,6 +71,7 @@ class ConvexShape {
     btConvexPolyhedron faces_;
     btConvexPolyhedron prisms_;
     Barrel barrel_;
+    Vec3 box_half_m_ = Vec3::Zero();
     double radius_m_ = 0.0;
     double core_reach_m_ = 0.0;
     double thinnest_half_m_ = 0.0;

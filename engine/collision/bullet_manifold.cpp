@@ -1,6 +1,7 @@
 // Face-face contacts come from Bullet's polygon clipping. This file adds two points for nearly
-// parallel edges (Bullet gives one, and its perturbed manifolds are off by up to 0.7 mm), and the
-// curved sides of cylinders.
+// parallel edges (Bullet gives one, and its perturbed manifolds are off by up to 0.7 mm), the
+// curved sides of cylinders, and the same for two boxes in their own axes, at a quarter of the
+// cost.
 #include "engine/collision/bullet_manifold.hpp"
 
 #include <algorithm>
@@ -41,7 +42,26 @@ void visit_edges(const Convex& convex, const Vec3& direction, const Visit& visit
     }
 }
 
+Vec3 to_local(const Convex& convex, const Vec3& direction) {
+    return from_bullet(to_bullet(direction) * convex.pose_ns.getBasis());
+}
+
+// The axis of the box face that is nearest to `local`, a direction in the box's axes, and the side
+// on which it is.
+struct BoxFace {
+    int axis = 0;
+    double side = 1.0;
+
+    explicit BoxFace(const Vec3& local) {
+        local.cwiseAbs().maxCoeff(&axis);
+        side = local[axis] >= 0.0 ? 1.0 : -1.0;
+    }
+};
+
 double facing_cosine(const Convex& convex, const Vec3& direction) {
+    if (convex.box_half_m != nullptr) {
+        return to_local(convex, direction).cwiseAbs().maxCoeff();
+    }
     return convex.faces == nullptr ? 0.0
                                    : convex.face_normal(convex.facing(direction)).dot(direction);
 }
@@ -87,11 +107,73 @@ struct Pair {
     }
 };
 
+// A convex polygon in a box's axes. A face that four sides clip has at most eight corners; with
+// rounding, corners in one line may count twice.
+struct BoxPolygon {
+    std::array<Vec3, 16> corners;
+    std::size_t count = 0;
+
+    void add(const Vec3& corner) {
+        if (count < corners.size()) {
+            corners[count++] = corner;
+        }
+    }
+    // Keeps the part where side * x[axis] <= limit_m.
+    void clip(int axis, double side, double limit_m) {
+        const BoxPolygon whole = *this;
+        count = 0;
+        for (std::size_t k = 0; k < whole.count; ++k) {
+            const Vec3& from = whole.corners[k];
+            const Vec3& to = whole.corners[k + 1 == whole.count ? 0 : k + 1];
+            const double out_from = side * from[axis] - limit_m;
+            const double out_to = side * to[axis] - limit_m;
+            if (out_from <= 0.0) {
+                add(from);
+            }
+            if ((out_from < 0.0 && out_to > 0.0) || (out_from > 0.0 && out_to < 0.0)) {
+                add(from + out_from / (out_from - out_to) * (to - from));
+            }
+        }
+    }
+};
+
+// clip() for two boxes.
+template <typename Visit>
+void clip_boxes(const Convex& ground, const Convex& body, const Vec3& up, const Visit& visit) {
+    constexpr double k_inside_m = 1e-9;  // offset of the sides, as in Convex::prisms
+    const BoxFace face(to_local(ground, up));
+    const BoxFace incident(to_local(body, -up));
+    const btTransform to_ground = ground.pose_ns.inverseTimes(body.pose_ns);
+    BoxPolygon polygon;
+    for (int k = 0; k < 4; ++k) {
+        Vec3 corner = *body.box_half_m;
+        corner[incident.axis] *= incident.side;
+        corner[(incident.axis + 1) % 3] *= k == 0 || k == 3 ? 1.0 : -1.0;
+        corner[(incident.axis + 2) % 3] *= k < 2 ? 1.0 : -1.0;
+        polygon.add(from_bullet(to_ground * to_bullet(corner)));
+    }
+    for (const int axis : {(face.axis + 1) % 3, (face.axis + 2) % 3}) {
+        const double limit_m = (*ground.box_half_m)[axis] + k_inside_m;
+        polygon.clip(axis, 1.0, limit_m);
+        polygon.clip(axis, -1.0, limit_m);
+    }
+    for (std::size_t k = 0; k < polygon.count; ++k) {
+        Vec3 foot = polygon.corners[k];
+        foot[face.axis] = face.side * (*ground.box_half_m)[face.axis];
+        visit(from_bullet(ground.pose_ns * to_bullet(polygon.corners[k])),
+              from_bullet(ground.pose_ns * to_bullet(foot)));
+    }
+}
+
 // Clips the supporting feature of `body` against the face of `ground`. Calls visit(point, foot) for
 // each remaining corner; `foot` is its projection onto the face. `up` points from ground to body.
 template <typename Visit>
 void clip(const Convex& ground, const Convex& body, const Vec3& up, ClipScratch& scratch,
           const Visit& visit) {
+    if (ground.box_half_m != nullptr && body.box_half_m != nullptr) {
+        clip_boxes(ground, body, up, visit);
+        return;
+    }
     struct Collector final : btDiscreteCollisionDetectorInterface::Result {
         Collector(const Vec3& normal, const Visit& take) : face_normal(normal), visit(take) {}
         void setShapeIdentifiersA(int /*part*/, int /*index*/) override {}
@@ -126,9 +208,27 @@ bool add_faces(const Pair& pair) {
     return false;
 }
 
+std::optional<std::array<Vec3, 2>> supporting_box_edge(const Convex& box, const Vec3& direction) {
+    const Vec3 local = to_local(box, direction);
+    int axis = 0;
+    if (local.cwiseAbs().minCoeff(&axis) >= k_edge_sine) {
+        return std::nullopt;
+    }
+    Vec3 from = box.box_half_m->array() *
+                (local.array() >= 0.0).select(Vec3::Ones(), -Vec3::Ones()).array();
+    Vec3 to = from;
+    from[axis] = -(*box.box_half_m)[axis];
+    to[axis] = (*box.box_half_m)[axis];
+    return std::array{from_bullet(box.pose_ns * to_bullet(from)),
+                      from_bullet(box.pose_ns * to_bullet(to))};
+}
+
 // The edge at the support vertex that is most nearly perpendicular to `direction`. nullopt if the
 // sine of each edge's deviation is above k_edge_sine.
 std::optional<std::array<Vec3, 2>> supporting_edge(const Convex& convex, const Vec3& direction) {
+    if (convex.box_half_m != nullptr) {
+        return supporting_box_edge(convex, direction);
+    }
     const Vec3 outermost = convex.support(direction);
     std::optional<std::array<Vec3, 2>> best;
     double lowest = k_edge_sine;

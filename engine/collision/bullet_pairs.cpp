@@ -77,7 +77,7 @@ void CollisionWorld::Impl::mark_near_changes(double margin_m) {
             }
             ++work.tree_queries;
             for (const std::size_t other :
-                 broadphase.find(box.grown(margin_m), broadphase_scratch)) {
+                 broadphase.find_around(index, box.grown(margin_m), margin_m, broadphase_scratch)) {
                 near_changed.push_back(other);
                 mark(other, Visit::dirty, 0);
             }

@@ -6,8 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpa2.h>
+
+#include "engine/collision/bullet_box_separation.hpp"
 
 namespace handhold {
 namespace {
@@ -136,7 +139,16 @@ bool search_until_optimal(Query search, const Convex& a, const Convex& b, btVect
 
 }  // namespace
 
+double gap_along_centres(const Convex& a, const Convex& b) {
+    const Vec3 offset = a.centre_ns() - b.centre_ns();
+    const double distance = offset.norm();
+    return distance > 0.0 ? depth_along(a, b, offset / distance) - a.radius_m - b.radius_m : 0.0;
+}
+
 CoreSeparation separate(const Convex& a, const Convex& b) {
+    if (are_boxes(a, b)) {
+        return *separate_boxes(a, b, std::numeric_limits<double>::infinity());
+    }
     const Vec3 fallback = flat_exit_direction(a, b);
     // Bullet returns `guess` as the normal if the intersection has no volume.
     const btVector3 guess = -(to_bullet(fallback) * a.pose_ns.getBasis());
@@ -153,6 +165,16 @@ CoreSeparation separate(const Convex& a, const Convex& b) {
     compare_faces(a, b, 1.0, result);
     compare_faces(a, b, -1.0, result);
     return result;
+}
+
+std::optional<CoreSeparation> separate_within(const Convex& a, const Convex& b, double limit_m) {
+    if (are_boxes(a, b)) {
+        return separate_boxes(a, b, limit_m);
+    }
+    if (gap_along_centres(a, b) + a.radius_m + b.radius_m > limit_m) {
+        return std::nullopt;
+    }
+    return separate(a, b);
 }
 
 }  // namespace handhold

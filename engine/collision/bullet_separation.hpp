@@ -1,9 +1,12 @@
 #pragma once
 
+#include <optional>
+
 #include "engine/collision/bullet_convex.hpp"
 
-// Signed distance of two convex cores (shapes without their radii), by Bullet's GJK and EPA. All
-// values are in near space (suffix _ns): b's axes with the origin at a's position.
+// Signed distance of two convex cores (shapes without their radii): of boxes in closed form
+// (bullet_box_separation.hpp), of all others by Bullet's GJK and EPA. All values are in near space
+// (suffix _ns): b's axes with the origin at a's position.
 namespace handhold {
 
 struct CoreSeparation {
@@ -17,5 +20,10 @@ struct CoreSeparation {
     bool overlap = false;
 };
 CoreSeparation separate(const Convex& a, const Convex& b);
+// nullopt only if the distance of the cores exceeds `limit_m`.
+std::optional<CoreSeparation> separate_within(const Convex& a, const Convex& b, double limit_m);
+// Separation of a and b along the line of their centres, in metres, radii included: never more than
+// their distance, and negative if that line does not separate them.
+double gap_along_centres(const Convex& a, const Convex& b);
 
 }  // namespace handhold

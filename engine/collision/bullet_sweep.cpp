@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "engine/collision/bullet_box_separation.hpp"
 
 namespace handhold {
 namespace {
@@ -56,13 +59,30 @@ double gap_along(const Convex& a, const Convex& b, const Vec3& normal) {
     return normal.dot(a.support(-normal) - b.support(normal)) - a.radius_m - b.radius_m;
 }
 
-}  // namespace
-
-double gap_along_centres(const Convex& a, const Convex& b) {
-    const Vec3 offset = a.centre_ns() - b.centre_ns();
-    const double distance = offset.norm();
-    return distance > 0.0 ? gap_along(a, b, offset / distance) : 0.0;
+// Measures the distance of the shapes at the approach's fraction.
+void measure(const Convex& placed, const Convex& b, Approach& approach) {
+    const CoreSeparation separation = separate(placed, b);
+    approach.gap_m = separation.separation_m - placed.radius_m - b.radius_m;
+    approach.impact.fraction = approach.fraction;
+    approach.impact.normal = separation.normal;
+    approach.impact.point_b_ns = separation.point_b_ns + b.radius_m * separation.normal;
 }
+
+// Finds a direction that separates the shapes, and their gap along it. Any such direction gives a
+// safe step. Boxes have one in closed form, without their distance.
+void find_gap(const Convex& placed, const Convex& b, Approach& approach) {
+    if (are_boxes(placed, b)) {
+        const BoxAxis axis = find_box_axis(placed, b, std::numeric_limits<double>::infinity());
+        if (axis.separation_m > k_sweep_touch_m) {
+            approach.gap_m = axis.separation_m;
+            approach.impact.normal = axis.normal;
+            return;
+        }
+    }
+    measure(placed, b, approach);
+}
+
+}  // namespace
 
 RelativeMotion::RelativeMotion(const Pose& from_ns, const Pose& to_ns)
     : from_(from_ns),
@@ -83,11 +103,11 @@ Vec3 RelativeMotion::velocity_at(const Vec3& point_ns, double fraction) const {
 }
 
 std::optional<Approach> begin_approach(const ConvexPart& a, const RelativeMotion& motion,
-                                       const Convex& b, double limit) {
+                                       const Convex& b, const SweepLimit& limit) {
     Approach approach;
     if (b.corners_ns != nullptr) {
         const auto free_fraction =
-            skip_free_travel(motion, *b.corners_ns, a.extent().radius_m, limit);
+            skip_free_travel(motion, *b.corners_ns, a.extent().radius_m, limit.fraction);
         if (!free_fraction) {
             return std::nullopt;
         }
@@ -100,8 +120,10 @@ std::optional<Approach> begin_approach(const ConvexPart& a, const RelativeMotion
     if (distance > 0.0) {
         const Vec3 normal = offset / distance;
         const double gap = gap_along(placed, b, normal);
+        const double closing_m = max_closing_m(a, motion, normal);
+        const bool may_graze = limit.grazing_m > 0.0 && closing_m - gap < limit.grazing_m;
         if (gap > k_sweep_touch_m &&
-            gap - k_sweep_touch_m > limit * max_closing_m(a, motion, normal)) {
+            (may_graze || gap - k_sweep_touch_m > limit.fraction * closing_m)) {
             return std::nullopt;
         }
     }
@@ -109,35 +131,36 @@ std::optional<Approach> begin_approach(const ConvexPart& a, const RelativeMotion
 }
 
 ApproachState advance(const ConvexPart& a, const RelativeMotion& motion, const Convex& b,
-                      double limit, Approach& approach) {
+                      const SweepLimit& limit, Approach& approach) {
     const Convex placed = a.at(motion.at(approach.fraction));
     // Every separating direction gives a safe step. The last direction is reused until half of its
     // gap is consumed, because a new separation query costs ten times as much.
     double gap = approach.gap_m > 0.0 ? gap_along(placed, b, approach.impact.normal) : 0.0;
     if (!(gap > std::max(k_reuse_ratio * approach.gap_m, 10.0 * k_sweep_touch_m))) {
-        const CoreSeparation separation = separate(placed, b);
-        gap = separation.separation_m - placed.radius_m - b.radius_m;
-        approach.gap_m = gap;
-        approach.impact.fraction = approach.fraction;
-        approach.impact.normal = separation.normal;
-        approach.impact.point_b_ns = separation.point_b_ns + b.radius_m * separation.normal;
+        find_gap(placed, b, approach);
+        gap = approach.gap_m;
         if (!(gap > k_sweep_touch_m)) {
             return ApproachState::touches;
         }
     }
     if (++approach.steps == k_steps) {
+        measure(placed, b, approach);
         return ApproachState::touches;
     }
     const double closing_m = max_closing_m(a, motion, approach.impact.normal);
-    if (!(closing_m > 0.0)) {
+    // Along this direction, the shapes overlap by at most `left_m` before the end of the motion,
+    // and no more along the shortest way out.
+    const double left_m = (1.0 - approach.fraction) * closing_m - gap;
+    const bool may_graze = limit.grazing_m > 0.0 && left_m < limit.grazing_m;
+    if (!(closing_m > 0.0) || may_graze) {
         return ApproachState::misses;
     }
     approach.fraction += (gap - 0.5 * k_sweep_touch_m) / closing_m;
-    return approach.fraction <= limit ? ApproachState::continues : ApproachState::misses;
+    return approach.fraction <= limit.fraction ? ApproachState::continues : ApproachState::misses;
 }
 
 std::optional<Impact> time_of_impact(const ConvexPart& a, const RelativeMotion& motion,
-                                     const Convex& b, double limit) {
+                                     const Convex& b, const SweepLimit& limit) {
     std::optional<Approach> approach = begin_approach(a, motion, b, limit);
     ApproachState offset = approach ? ApproachState::continues : ApproachState::misses;
     while (offset == ApproachState::continues) {

@@ -39,30 +39,34 @@ struct Impact {
     std::uint32_t part = 0;          // index of a's part; written by the caller
 };
 
-// Separation of a and b along the line of their centres, in metres: never more than their distance,
-// and negative if that line does not separate them.
-double gap_along_centres(const Convex& a, const Convex& b);
+// Where a sweep ends.
+struct SweepLimit {
+    double fraction = 1.0;  // share of the motion after which no touch is searched
+    // A touch after which the shapes can overlap by no more than this until the end of the motion
+    // may be left out.
+    double grazing_m = 0.0;
+};
 
 // State of a conservative advancement: the fraction of the motion for which a part is known not to
 // touch a resting shape.
 struct Approach {
     double fraction = 0.0;
-    Impact impact;       // result of the last separation query; once `touches`: the contact
+    Impact impact;       // once `touches`: the contact; before, only its normal is used
     double gap_m = 0.0;  // separation at that query
     int steps = 0;
 };
 enum class ApproachState : std::uint8_t { continues, touches, misses };
 // begin_approach takes cheap first steps. It returns nullopt only if a does not touch b before
-// `limit`, a fraction of the motion. advance moves to a later fraction, up to which a cannot touch
+// the limit. advance moves to a later fraction, up to which a cannot touch
 // b. A caller with many shapes always advances the one with the smallest fraction.
 std::optional<Approach> begin_approach(const ConvexPart& a, const RelativeMotion& motion,
-                                       const Convex& b, double limit);
+                                       const Convex& b, const SweepLimit& limit);
 ApproachState advance(const ConvexPart& a, const RelativeMotion& motion, const Convex& b,
-                      double limit, Approach& approach);
+                      const SweepLimit& limit, Approach& approach);
 
 // First fraction of the motion at which part a comes within a micrometre of b; 0 if they touch at
 // the start. nullopt if there is no touch before `limit`.
 std::optional<Impact> time_of_impact(const ConvexPart& a, const RelativeMotion& motion,
-                                     const Convex& b, double limit);
+                                     const Convex& b, const SweepLimit& limit);
 
 }  // namespace handhold

@@ -139,7 +139,7 @@ std::optional<RayHit> CollisionWorld::cast_sphere(double radius_m, const Vec3& f
         const Vec3 along = inverse_transform_point(proxy.to_ws, to_ws) - from;
         const RelativeMotion motion({}, {along, Quat::Identity()});
         const auto offer = [&](const Convex& b) {
-            const auto hit = time_of_impact(scratch.sphere, motion, b, fraction);
+            const auto hit = time_of_impact(scratch.sphere, motion, b, {.fraction = fraction});
             if (hit && (!best || hit->fraction < fraction)) {
                 fraction = hit->fraction;
                 best = RayHit{proxy.id, transform_point(proxy.to_ws, from + hit->point_b_ns),

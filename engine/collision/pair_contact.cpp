@@ -66,7 +66,7 @@ std::optional<Impact> first_impact_on_mesh(const PairIo& io, const ConvexPart& a
     std::vector<TriangleApproach>& queue = io.scratch.approaches;
     queue.clear();
     for (std::uint32_t i = 0; i < triangles.all().size(); ++i) {
-        if (const auto approach = begin_approach(a, motion, place(i), limit)) {
+        if (const auto approach = begin_approach(a, motion, place(i), {limit, grazing_m})) {
             queue.push_back({*approach, i});
         }
     }
@@ -74,7 +74,8 @@ std::optional<Impact> first_impact_on_mesh(const PairIo& io, const ConvexPart& a
     while (!queue.empty()) {
         std::ranges::pop_heap(queue, touches_later);
         TriangleApproach& next = queue.back();
-        const ApproachState state = advance(a, motion, place(next.triangle), limit, next.approach);
+        const ApproachState state =
+            advance(a, motion, place(next.triangle), {limit, grazing_m}, next.approach);
         if (state == ApproachState::continues) {
             std::ranges::push_heap(queue, touches_later);
             continue;
@@ -121,8 +122,9 @@ std::optional<Impact> first_impact(const PairIo& io, const RelativeMotion& motio
         }
         for (const ConvexPart& b : io.b) {
             const double limit = first ? first->fraction : 1.0;
-            auto impact = time_of_impact(a, motion, place_b(io, b), limit);
-            if (impact && stops(*impact, motion, impact->normal, grazing_tolerance_m(io, a, &b))) {
+            const double grazing_m = grazing_tolerance_m(io, a, &b);
+            auto impact = time_of_impact(a, motion, place_b(io, b), {limit, grazing_m});
+            if (impact && stops(*impact, motion, impact->normal, grazing_m)) {
                 impact->part = static_cast<std::uint32_t>(i);
                 keep_earlier(impact, first);
             }
@@ -151,9 +153,11 @@ void add_contacts_at(const PairIo& io, const Pose& pose_ns, const Pose& from_ns)
         }
         for (const ConvexPart& part : io.b) {
             const Convex b = place_b(io, part);
-            if (!are_beyond_margin(io.a[i], a, part, b, margin_m) &&
-                gap_along_centres(a, b) <= margin_m) {
-                add_manifold(a, b, separate(a, b), margin_m, scratch.clip, scratch.contacts);
+            if (are_beyond_margin(io.a[i], a, part, b, margin_m)) {
+                continue;
+            }
+            if (const auto separation = separate_within(a, b, margin_m + a.radius_m + b.radius_m)) {
+                add_manifold(a, b, *separation, margin_m, scratch.clip, scratch.contacts);
             }
         }
         for (std::size_t added = before; added < scratch.contacts.size(); ++added) {

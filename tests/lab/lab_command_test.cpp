@@ -70,9 +70,12 @@ TEST_F(LabCommand, WritesCompleteFilesForEveryScene) {
         for (const char* field :
              {"scene", "solver", "hz", "bodies", "planes", "joints", "joint_error_mm",
               "joint_error_deg", "grab_error_mm", "player_error_mm", "penetration_mm",
-              "us_per_step", "iterations", "momentum_residual"}) {
+              "us_per_step", "us_per_solve", "us_per_frame", "iterations", "momentum_residual"}) {
             EXPECT_TRUE(figures.contains(field)) << field;
         }
+        // Each of the three contains the one before it.
+        EXPECT_LE(figures["us_per_solve"]["max"], figures["us_per_step"]["max"]);
+        EXPECT_LE(figures["us_per_step"]["max"], figures["us_per_frame"]["max"]);
         std::size_t grabs = 0;
         for (const auto& joint : figures["joints"]) {
             grabs += joint["type"] == "grab" ? 1U : 0U;

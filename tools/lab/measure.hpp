@@ -51,6 +51,7 @@ class Measure {
     Series player_mm;
     Series penetration_mm;
     Series step_us;
+    Series solve_us;
     Series frame_us;
     Series iterations;
     double momentum_residual = 0.0;

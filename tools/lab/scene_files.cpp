@@ -64,6 +64,8 @@ Json bodies_json(const LabScene& scene, Holder holder) {
                                    is_free ? body.inertia_kgm2() : Vec3(Vec3::Zero()), body.half_m,
                                    name_of(body.kind)));
         bodies.back()["collides"] = body.collides;
+        bodies.back()["friction"] = body.friction;
+        bodies.back()["restitution"] = body.restitution;
     }
     const std::size_t others = holder == Holder::player ? scene.players.size() : scene.holds.size();
     for (std::size_t i = 0; i < others; ++i) {
@@ -181,6 +183,7 @@ std::string scene_json(const LabScene& scene, Holder holder, const RunLabels& la
     json["player_error_mm"] = {{"max", measure.player_mm.max()}};
     json["penetration_mm"] = {{"max", measure.penetration_mm.max()}};
     json["us_per_step"] = times(measure.step_us);
+    json["us_per_solve"] = times(measure.solve_us);
     json["us_per_frame"] = times(measure.frame_us);
     json["iterations"] = {{"median", measure.iterations.quantile(0.5)},
                           {"max", measure.iterations.max()}};

@@ -126,32 +126,49 @@ bool has_same_point(const ContactPoint& contact, std::span<const ContactPoint> p
     });
 }
 
+// Merges two sorted lists into `into`, from the back, so that no other memory is needed.
+void merge_sorted(std::span<const ContactPoint> list, std::vector<ContactPoint>& into) {
+    std::size_t left = into.size();
+    std::size_t right = list.size();
+    into.resize(left + right);
+    while (right > 0) {
+        const bool from_list = left == 0 || order_of(into[left - 1]) < order_of(list[right - 1]);
+        into[left + right - 1] = from_list ? list[right - 1] : into[left - 1];
+        --(from_list ? right : left);
+    }
+}
+
 // Merges old and new contacts; both lists are sorted. New contacts replace the old ones of their
 // pair, or join them (OldPoints). Pairs that are no longer found keep their old contacts, because
 // those keep the pair apart. If none of a pair's new contacts touches, the old contacts that
 // limited the motion stay too: a ball that a rail deflects slides along the contact's plane and
 // ends slightly off the rail, but the impact at the old point must still change its velocity.
 void merge_contacts(const MovingContacts& moving, OldPoints old_points) {
-    std::vector<ContactPoint>& merged = moving.scratch;
-    const std::size_t new_count = merged.size();
+    const std::vector<ContactPoint>& fresh = moving.scratch;
+    const std::size_t new_count = fresh.size();
+    std::size_t kept = 0;   // old contacts that stay, moved to the front of moving.contacts
     std::size_t first = 0;  // range of new contacts of the same pair as `old`
     std::size_t end = 0;
     std::uint32_t feature = 0;  // highest feature id of the pair
+    std::uint64_t last_a = 0;   // ids of the last old contact
+    std::uint64_t last_b = 0;
     for (std::size_t i = 0; i < moving.contacts.size(); ++i) {
         ContactPoint old = moving.contacts[i];
-        if (i == 0 || is_pair_before(moving.contacts[i - 1], old)) {
+        if (last_a != old.id_a || last_b != old.id_b) {
+            last_a = old.id_a;
+            last_b = old.id_b;
             first = end;
-            while (first < new_count && is_pair_before(merged[first], old)) {
+            while (first < new_count && is_pair_before(fresh[first], old)) {
                 ++first;
             }
             end = first;
-            while (end < new_count && !is_pair_before(old, merged[end])) {
-                feature = merged[end++].feature;
+            while (end < new_count && !is_pair_before(old, fresh[end])) {
+                feature = fresh[end++].feature;
             }
         }
-        const auto found = std::span(merged).subspan(first, end - first);
+        const auto found = std::span(fresh).subspan(first, end - first);
         if (found.empty()) {
-            merged.push_back(old);
+            moving.contacts[kept++] = old;
             continue;
         }
         const bool limited = !any_touches(found) && limited_motion(moving.graph, old);
@@ -159,14 +176,15 @@ void merge_contacts(const MovingContacts& moving, OldPoints old_points) {
                            !has_same_point(old, found);
         if (limited || stays) {
             old.feature = ++feature;
-            merged.push_back(old);
+            moving.contacts[kept++] = old;
         } else if (moving.impacts != nullptr && !has_same_point(old, found) &&
                    limited_motion(moving.graph, old) && is_impact(moving.graph, old)) {
             moving.impacts->push_back(old);
         }
     }
-    std::ranges::sort(merged, {}, order_of);
-    std::swap(moving.contacts, merged);
+    moving.contacts.resize(kept);
+    merge_sorted(moving.contacts, moving.scratch);
+    std::swap(moving.contacts, moving.scratch);
 }
 
 }  // namespace

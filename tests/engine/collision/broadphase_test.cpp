@@ -1,4 +1,6 @@
 // The broadphase's tree stays shallow however many colliders leave and return.
+#include <algorithm>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -44,6 +46,69 @@ TEST(Broadphase, TreeStaysShallowWhenManyCollidersLeaveAndReturn) {
         EXPECT_EQ(hit->id, 2U);
         EXPECT_FALSE(world.closest_point(proxies[100].to_ws.position, 0.05).has_value());
     }
+}
+
+bool same_contact(const ContactPoint& x, const ContactPoint& y) {
+    return x.id_a == y.id_a && x.id_b == y.id_b && x.feature == y.feature &&
+           x.point_a_bs == y.point_a_bs && x.point_b_bs == y.point_b_bs &&
+           x.normal_b_bs == y.normal_b_bs && x.separation_m == y.separation_m;
+}
+
+// Leaves have slack and keep lists of their neighbours. Boxes drift within and out of their leaves,
+// some jump, some become fixed and free again, some have no valid pose for a while.
+TEST(Broadphase, DriftingBodiesHaveTheContactsOfANewWorld) {
+    Random random(7);
+    ShapeLibrary shapes;
+    shapes.add_box({0.1, 0.08, 0.12});
+    shapes.add_sphere(0.15);
+    CollisionWorld world(shapes);
+    std::vector<ColliderProxy> proxies = scattered(120, random);
+    std::vector<Vec3> velocities;
+    for (ColliderProxy& proxy : proxies) {
+        proxy.shape = {proxy.id % 5 == 0 ? 1U : 0U};
+        proxy.to_ws.position *= 0.04;  // within 1.6 m
+        proxy.from_ws = proxy.to_ws;
+        velocities.push_back(random.vector(0.01));
+    }
+    world.set_proxies(proxies);
+    std::size_t total = 0;
+    std::vector<ContactPoint> warm;
+    std::vector<ContactPoint> fresh;
+    for (int frame = 0; frame < 150; ++frame) {
+        std::vector<ColliderProxy> changed;
+        for (std::size_t i = 0; i < proxies.size(); ++i) {
+            ColliderProxy& proxy = proxies[i];
+            const double chance = random.between(0.0, 1.0);
+            proxy.from_ws = proxy.to_ws;
+            proxy.to_ws.position += chance < 0.005 ? random.vector(1.0) : velocities[i];
+            if (chance > 0.99) {
+                proxy.free = !proxy.free;
+            }
+            if (chance > 0.4) {
+                changed.push_back(proxy);
+                if (chance > 0.95) {
+                    changed.back().to_ws.position.x() = std::nan("");
+                }
+            } else {
+                proxy.to_ws = proxy.from_ws;
+            }
+        }
+        const auto compare = [&] {
+            CollisionWorld other(shapes);
+            other.set_proxies(proxies);
+            world.find_contacts({}, warm);
+            other.find_contacts({}, fresh);
+            total += warm.size();
+            return std::ranges::equal(warm, fresh, same_contact);
+        };
+        world.update_proxies(changed);
+        world.find_contacts({}, warm);  // with the invalid poses
+        for (const ColliderProxy& proxy : proxies) {
+            world.update_proxies(std::span(&proxy, 1));
+        }
+        ASSERT_TRUE(compare()) << frame;
+    }
+    EXPECT_GT(total, 5000U);
 }
 
 }  // namespace
