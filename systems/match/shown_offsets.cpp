@@ -1,12 +1,19 @@
 #include "systems/match/shown_offsets.hpp"
 
-#include <algorithm>
-
 namespace handhold {
 namespace {
 
-// 0.05 = exp(-3): the time constant is a third.
-constexpr double k_time_constants = 3.0;
+// A critically damped offset x from rest is x0 (1 + w t) exp(-w t): a twentieth at w t = 4.74.
+constexpr double k_rate_per_s = 4.74 / ShownOffsets::k_shown_correction_s;
+
+// One step of x'' = -2 w x' - w^2 x, exact but for exp, of which the series is taken.
+void settle(double dt_s, Vec3& offset, Vec3& rate) {
+    const double x = k_rate_per_s * dt_s;
+    const double decay = 1.0 / (1.0 + x + x * x / 2.0 + x * x * x / 6.0);
+    const Vec3 push = rate + k_rate_per_s * offset;
+    offset = decay * (offset + dt_s * push);
+    rate = decay * (rate - x * push);
+}
 
 void add_correction(const Vec3& before, const Vec3& after, Vec3& offset) {
     offset += before - after;
@@ -55,11 +62,10 @@ void ShownOffsets::end_correction(const MatchWorld& match) {
 }
 
 void ShownOffsets::advance(double dt_s) {
-    const double left = std::max(0.0, 1.0 - k_time_constants * dt_s / k_shown_correction_s);
-    for (PlayerPoints& offset : offsets_) {
-        offset.head *= left;
-        for (Vec3& hand : offset.hands) {
-            hand *= left;
+    for (std::size_t slot = 0; slot < offsets_.size(); ++slot) {
+        settle(dt_s, offsets_[slot].head, rates_[slot].head);
+        for (std::size_t side = 0; side < k_hand_count; ++side) {
+            settle(dt_s, offsets_[slot].hands[side], rates_[slot].hands[side]);
         }
     }
 }

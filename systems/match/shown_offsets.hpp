@@ -20,7 +20,8 @@ void note_points(const MatchWorld& match, PointsOfAll& out);
 
 // What a client adds to drawn positions, so that a correction of wrong guesses moves them within
 // k_shown_correction_s instead of at once: the positions before the correction less those after it,
-// less and less. State for the eye only; it is never part of the world.
+// less and less: critically damped, so that drawn velocities do not jump either. State for the eye
+// only; it is never part of the world.
 //
 // A player's own head moves by a correction when somebody else pulls at what they hold: that offset
 // is for the own view too, with all that it shows of the player.
@@ -36,7 +37,7 @@ class ShownOffsets {
     void end_correction(const MatchWorld& match);
     // Call once a tick.
     void advance(double dt_s);
-    void forget() { offsets_ = {}; }
+    void forget() { offsets_ = rates_ = {}; }
 
     // Displacements, m; indexed by slot.
     const PointsOfAll& offsets() const { return offsets_; }
@@ -45,6 +46,7 @@ class ShownOffsets {
     PointsOfAll before_;
     PointsOfAll after_;
     PointsOfAll offsets_;
+    PointsOfAll rates_;  // velocities of the offsets, m/s
 };
 
 }  // namespace handhold

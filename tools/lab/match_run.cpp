@@ -35,19 +35,19 @@ PointsOfAll moved_by(const PointsOfAll& points, const PointsOfAll& offsets) {
     return out;
 }
 
-// True if a hand of this player and one of another hold the same body.
+// True if a hand of this player and one of another hold the same free body.
 bool shares_a_body(const MatchWorld& match, std::size_t slot) {
     const World& world = match.world;
     const Entity player = find_by_id(world, match.players[slot]);
     for (std::size_t a = 0; a < world.grab.size(); ++a) {
         const Grab& own = world.grab.elements()[a];
-        if (own.kind == GripKind::none ||
+        if (own.kind != GripKind::held ||
             world.hand_owner.at(world.grab.owners()[a]).player != player) {
             continue;
         }
         for (std::size_t b = 0; b < world.grab.size(); ++b) {
             const Grab& other = world.grab.elements()[b];
-            if (other.kind != GripKind::none && other.body == own.body &&
+            if (other.kind == GripKind::held && other.body == own.body &&
                 world.hand_owner.at(world.grab.owners()[b]).player != player) {
                 return true;
             }
