@@ -10,7 +10,7 @@ namespace handhold {
 // Limits of a shown foot's motion relative to the chest. A straight leg that its hip pulls along
 // (k_pelvis_limits) exceeds them by as much as the hip moves across the foot's way.
 inline constexpr JointLimits k_foot_limits = {
-    .speed_mps = 2.4, .step_mps = 0.6, .acceleration_mps2 = 60.0, .catch_up_mps2 = 30.0};
+    .speed_mps = 2.5, .step_mps = 0.8, .acceleration_mps2 = 80.0, .catch_up_mps2 = 30.0};
 
 struct LimitFeetIo {
     double dt_s;                         // in: > 0

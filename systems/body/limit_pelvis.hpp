@@ -9,7 +9,7 @@ namespace handhold {
 
 // Limits of the shown pelvis' motion relative to the chest.
 inline constexpr JointLimits k_pelvis_limits = {
-    .speed_mps = 1.2, .step_mps = 0.3, .acceleration_mps2 = 27.0, .catch_up_mps2 = 30.0};
+    .speed_mps = 1.5, .step_mps = 0.3, .acceleration_mps2 = 27.0, .catch_up_mps2 = 30.0};
 
 // Greatest rate at which the line from hip to hip turns in the play space.
 inline constexpr double k_hips_radps = 4.0;
