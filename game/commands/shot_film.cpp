@@ -49,6 +49,7 @@ struct ShotFilm::Impl {
         const RenderPose* const other = scene.world().render_pose.find(named);
         const BodyPose* const thing = scene.world().body_pose.find(named);
         switch (shot.view) {
+            case ShotView::gaze:
             case ShotView::hand:
                 return transform_point(first().hands[index_of(shot.side)].shown_ws,
                                        Vec3(0.0, 0.0, -k_shot_palm_m));
@@ -69,6 +70,11 @@ struct ShotFilm::Impl {
         switch (shot.view) {
             case ShotView::eyes:
                 return first().head_ws;
+            case ShotView::gaze: {
+                const Vec3& eyes_ws = first().head_ws.position;
+                return look_along(eyes_ws, looked_at(shot) - eyes_ws,
+                                  first().head_ws.rotation * Vec3::UnitY());
+            }
             case ShotView::behind:
                 return outside.behind(first());
             case ShotView::before:
@@ -123,9 +129,9 @@ struct ShotFilm::Impl {
         const UiPicture& ui = overlay.end();
         view.show_hand_lines(shot.marks);
         view.set_hidden_lines(static_cast<float>(shot.through));
+        const bool is_at_eyes = shot.view == ShotView::eyes || shot.view == ShotView::gaze;
         view.draw(camera_ws(shot), shot.fov_deg * k_degree,
-                  shot.view == ShotView::eyes ? std::optional<std::size_t>(0) : std::nullopt, image,
-                  marks, &ui);
+                  is_at_eyes ? std::optional<std::size_t>(0) : std::nullopt, image, marks, &ui);
     }
 
     std::string file(const Shot& shot, const char* extension) const {

@@ -12,8 +12,9 @@
 namespace handhold {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, ShotView>, 9> k_views = {
+constexpr std::array<std::pair<std::string_view, ShotView>, 10> k_views = {
     {{"eyes", ShotView::eyes},
+     {"gaze", ShotView::gaze},
      {"behind", ShotView::behind},
      {"before", ShotView::before},
      {"hand", ShotView::hand},

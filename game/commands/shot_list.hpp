@@ -16,6 +16,7 @@ namespace handhold {
 // Where a shot's camera is.
 enum class ShotView : std::uint8_t {
     eyes,    // camera at the first player's eyes
+    gaze,    // camera at the first player's eyes, turned to the palm of a hand
     behind,  // camera behind and above the first player, as far as walls allow
     before,  // camera in front of the first player, looking back
     hand,    // camera at `from_m` from the palm of a hand of the first player, looking at it
@@ -34,7 +35,7 @@ struct Shot {
     double at_s = 0.0;       // session time
     double until_s = 0.0;    // later than at_s: a clip that ends here; else: a picture
     ShotView view = ShotView::eyes;
-    HandSide side = HandSide::right;  // hand of ShotView::hand
+    HandSide side = HandSide::right;  // hand of ShotView::hand and gaze
     // ShotView::body: the body's name; ShotView::player: the player's name
     std::string body;
     // The camera's position relative to the palm, chest or other point that `view` names: right, up

@@ -32,7 +32,9 @@ std::string turning_session() {
 }
 
 RecordedGrip random_grip(std::size_t frames, test::Random& random) {
-    RecordedGrip grip{"made up", "right", {}, {}};
+    RecordedGrip grip;
+    grip.recording = "made up";
+    grip.hand = "right";
     for (std::size_t i = 0; i < frames; ++i) {
         grip.wrists.push_back(i == 0 ? Pose{} : random.pose(0.1));
         grip.us.push_back(40.0);

@@ -79,6 +79,7 @@ GripVariant variant_of(const GripOptions& options) {
     variant.order = search_order_of(options.search);
     variant.palm = options.palm == "ray" ? PalmChoice::ray_only : PalmChoice::smallest_sync;
     variant.fingers = finger_method_of(fingers_of(options));
+    variant.shown_after = options.shown_after;
     return variant;
 }
 

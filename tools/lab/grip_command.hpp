@@ -18,6 +18,7 @@ struct GripOptions {
     // "fit" or a baseline (finger_baselines.hpp); empty: "talk" if `search` needs it, else "fit".
     std::string fingers;
     double grip_edge_mm = 20.0;
+    int shown_after = 0;             // GripVariant::shown_after
     std::filesystem::path rig_json;  // empty: not written
     // Number of frames for which each hand moves as recorded; then it stands still for as many. 0:
     // not measured.

@@ -75,6 +75,18 @@ class OneHand {
         }
     }
 
+    // The shown hand in the frames in which it closes.
+    void run_in_play(const Tuning& tuning, const GripVariant& variant) {
+        tracking_.elements().front().pressed = false;
+        surroundings_.front().is_gripping = false;
+        fit(k_at_once_s, tuning, variant);
+        tracking_.elements().front().pressed = true;
+        surroundings_.front().is_gripping = true;
+        for (int frame = 0; frame < variant.shown_after; ++frame) {
+            run_frame_us(tracked_wrist(), tuning, variant);
+        }
+    }
+
     // Runs one frame that reuses the previous frame's results. Returns its time in microseconds.
     double run_frame_us(const Pose& wrist, const Tuning& tuning, const GripVariant& variant) {
         surroundings_.front().wrist_bs = wrist;
@@ -262,7 +274,11 @@ PosedHand pose_cold_hand(const GripMesh& mesh, const HandRig& rig, const Pose& w
                          const Tuning& tuning, const GripVariant& variant) {
     OneHand hand(mesh, rig, wrist, variant.fingers);
     PosedHand posed;
-    hand.run(tuning, variant, posed.us);
+    if (variant.shown_after > 0) {
+        hand.run_in_play(tuning, variant);
+    } else {
+        hand.run(tuning, variant, posed.us);
+    }
     describe(hand, mesh, rig, posed);
     return posed;
 }

@@ -29,6 +29,9 @@ struct GripVariant {
     // The talk's fingers include its palm fit: three limits and no depenetration of knuckles and
     // heel. Only the runtime's own method fits the wrist together with the fingers.
     FingerMethod fingers = FingerMethod::fit;
+    // Frames of 1/90 s from an empty hand at rest, the first of which begins the grip, after which
+    // the hand is shown. 0: the shown hand is at its target at once.
+    int shown_after = 0;
 };
 
 struct GripTimes {  // microseconds of thread CPU time
@@ -55,7 +58,7 @@ struct PosedHand {
 };
 
 // Poses a hand that closes at `wrist` (in the mesh's frame) without cached results. Runs the hand
-// stages of one frame in order. The shown hand is at its target at once, without smoothing.
+// stages of one frame in order; GripVariant::shown_after says when the hand is shown.
 PosedHand pose_cold_hand(const GripMesh& mesh, const HandRig& rig, const Pose& wrist,
                          const Tuning& tuning, const GripVariant& variant);
 

@@ -80,6 +80,10 @@ void add_grip_options(CLI::App& grip, lab::GripOptions& options) {
         ->check(one_of({"fit", "closing", "talk", "spheres"}));
     grip.add_option("--grip-edge-mm", options.grip_edge_mm, "Edge length of the search detail")
         ->check(number_in(1.0, 1000.0));
+    grip.add_option("--shown-after", options.shown_after,
+                    "Write the shown hand this many frames of 1/90 s after an empty hand at rest "
+                    "begins to grip; 0: the hand at its target")
+        ->check(CLI::Range(0, 100000));
     grip.add_option("--rig-json", options.rig_json, "Also write the rig");
     CLI::Option* const motions = grip.add_option(
         "--motions", options.motions, "Wrists of recorded grips: the lines of `recorded-grips`");

@@ -15,6 +15,8 @@
 #include "game/play/progress.hpp"
 #include "game/run/session_run.hpp"
 #include "game/run/spawn.hpp"
+#include "systems/hand/fit_hands.hpp"
+#include "systems/hand/shared/hand_fit.hpp"
 #include "systems/rigs/hand_kinematics.hpp"
 #include "tools/lab/exit_status.hpp"
 #include "tools/lab/grip_files.hpp"
@@ -40,7 +42,8 @@ class GripWatch {
     GripWatch(const PlayerEntities& player, std::string recording)
         : player_(player), recording_(std::move(recording)) {}
 
-    void take(const World& world, const HandScratch& scratch, const RunStats& stats) {
+    void take(const World& world, const Tuning& tuning, const HandScratch& scratch,
+              const RunStats& stats) {
         std::array<const HandSurroundings*, k_hand_count> gripping = {};
         double count = 0.0;
         for (const HandSurroundings& around : scratch.surroundings) {
@@ -53,7 +56,8 @@ class GripWatch {
             }
         }
         for (std::size_t side = 0; side < k_hand_count; ++side) {
-            take_hand(world, side, gripping[side], hand_stages_us(stats) / std::max(1.0, count));
+            take_hand(world, tuning, side, gripping[side],
+                      hand_stages_us(stats) / std::max(1.0, count));
         }
     }
 
@@ -67,8 +71,8 @@ class GripWatch {
         Pose first_bs;
     };
 
-    void take_hand(const World& world, std::size_t side, const HandSurroundings* around,
-                   double us) {
+    void take_hand(const World& world, const Tuning& tuning, std::size_t side,
+                   const HandSurroundings* around, double us) {
         std::optional<Current>& current = current_[side];
         if (around == nullptr) {
             current.reset();
@@ -77,11 +81,28 @@ class GripWatch {
         const double since_s = world.grab.at(around->hand).since_s;
         if (!current || current->body != around->body || current->since_s != since_s) {
             current = {grips.size(), around->body, since_s, around->wrist_bs};
-            grips.push_back({recording_, side == 0 ? "left" : "right", {}, {}});
+            grips.push_back({recording_, side == 0 ? "left" : "right", {}, {}, {}, {}});
         }
         const Pose moved = inverse(current->first_bs) * around->wrist_bs;
         grips[current->grip].wrists.push_back(side == 0 ? mirror_hand_pose(moved) : moved);
         grips[current->grip].us.push_back(us);
+        take_depths(world, tuning, *around, grips[current->grip]);
+    }
+
+    static void take_depths(const World& world, const Tuning& tuning,
+                            const HandSurroundings& around, RecordedGrip& grip) {
+        const auto terms = shown_fit_terms(around, world.grip_surface.at(around.hand),
+                                           world.palm_offset.at(around.hand),
+                                           world.finger_pose.at(around.hand), tuning);
+        double thumb_mm = 0.0;
+        double fingers_mm = 0.0;
+        for (std::size_t f = 0; terms && f < around.rig->fingers.size(); ++f) {
+            double& deepest_mm =
+                around.rig->fingers[f].name == FingerName::thumb ? thumb_mm : fingers_mm;
+            deepest_mm = std::max(deepest_mm, -1e3 * terms->gap_m[f]);
+        }
+        grip.thumb_depth_mm.push_back(thumb_mm);
+        grip.fingers_depth_mm.push_back(fingers_mm);
     }
 
     PlayerEntities player_;
@@ -110,7 +131,8 @@ Result<std::vector<RecordedGrip>> watch(const std::string& scene_file, const std
     settings.keep_frames = false;
     run_session(scene, player_ids({&player, 1}), &recording.value(), settings,
                 [&](const Scene& played, const FrameLog& frame) {
-                    watched.take(played.world(), played.caches().hands, frame.stats);
+                    watched.take(played.world(), played.tuning(), played.caches().hands,
+                                 frame.stats);
                 });
     return std::move(watched.grips);
 }
@@ -126,18 +148,49 @@ std::string line_of(const RecordedGrip& grip) {
     const Json line = {{"recording", grip.recording},
                        {"hand", grip.hand},
                        {"us", grip.us},
+                       {"thumb_depth_mm", grip.thumb_depth_mm},
+                       {"fingers_depth_mm", grip.fingers_depth_mm},
                        {"wrists", std::move(wrists)}};
     return line.dump() + "\n";
 }
+
+// Frames of a grip in which the shown hand is still closing.
+constexpr std::size_t k_closing_frames = 27;
+
+// Counts frames in which a digit of a shown hand is deep in a surface.
+class Depths {
+  public:
+    void add(const RecordedGrip& grip, std::size_t frame) {
+        ++frames_;
+        deep_thumbs_ += grip.thumb_depth_mm[frame] > k_deep_mm ? 1U : 0U;
+        deep_fingers_ += grip.fingers_depth_mm[frame] > k_deep_mm ? 1U : 0U;
+    }
+    void print(const char* when) const {
+        const double percent = 100.0 / static_cast<double>(std::max<std::size_t>(1, frames_));
+        std::printf("deeper than %.0f mm in %s: thumb %.2f %%, fingers %.2f %% of frames\n",
+                    k_deep_mm, when, percent * static_cast<double>(deep_thumbs_),
+                    percent * static_cast<double>(deep_fingers_));
+    }
+
+  private:
+    static constexpr double k_deep_mm = 3.0;
+    std::size_t frames_ = 0;
+    std::size_t deep_thumbs_ = 0;
+    std::size_t deep_fingers_ = 0;
+};
 
 void print_figures(const std::vector<RecordedGrip>& grips) {
     Series speed_mps;
     Series turn_dps;
     Series onset_us;
+    Series later_us;
     Series warm_us;
+    Depths onset_depths;
+    Depths held_depths;
     for (const RecordedGrip& grip : grips) {
         for (std::size_t i = 0; i < grip.wrists.size(); ++i) {
-            (i == 0 ? onset_us : warm_us).add(grip.us[i]);
+            (i == 0 ? onset_us : i <= k_thumb_tries ? later_us : warm_us).add(grip.us[i]);
+            (i < k_closing_frames ? onset_depths : held_depths).add(grip, i);
             if (i > 0) {
                 const Pose step = inverse(grip.wrists[i - 1]) * grip.wrists[i];
                 speed_mps.add(k_recorded_hz *
@@ -146,7 +199,7 @@ void print_figures(const std::vector<RecordedGrip>& grips) {
             }
         }
     }
-    std::printf("%zu grips, %zu frames after their first\n", grips.size(), warm_us.values.size());
+    std::printf("%zu grips, %zu frames after their first\n", grips.size(), speed_mps.values.size());
     const auto print = [](const char* name, const Series& series) {
         std::printf("%-22s median %8.3f  90 %% %8.3f  99 %% %8.3f\n", name, series.quantile(0.5),
                     series.quantile(0.9), series.quantile(0.99));
@@ -154,7 +207,10 @@ void print_figures(const std::vector<RecordedGrip>& grips) {
     print("wrist speed, m/s", speed_mps);
     print("wrist turning, deg/s", turn_dps);
     print("a warm hand, us", warm_us);
+    print("six frames after, us", later_us);
     print("a closing hand, us", onset_us);
+    onset_depths.print("0.3 s of a grip");
+    held_depths.print("later");
 }
 
 }  // namespace

@@ -23,6 +23,9 @@ struct RecordedGrip {
     // One time per frame: thread CPU time of the hand stages from gather_surroundings to fit_hands,
     // divided by the number of the player's gripping hands.
     std::vector<double> us;
+    // One value per frame: how deep the shown hand is in surfaces, at least 0.
+    std::vector<double> thumb_depth_mm;
+    std::vector<double> fingers_depth_mm;  // the deepest finger
 };
 
 struct RecordedGripsOptions {

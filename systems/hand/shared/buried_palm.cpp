@@ -36,39 +36,42 @@ std::optional<Exit> exit_of(const GripMesh& mesh, const Vec3& inside, double rea
                : std::optional(Exit{near->point, mesh.contact.normals[near->triangle], depth_m});
 }
 
-// Of the deepest end of the palm's capsules.
-std::optional<Exit> exit_of_palm(const GripMesh& mesh, const HandRig& rig, const Pose& wrist,
-                                 double reach_m) {
-    std::optional<Exit> deepest;
+// Calls visit(center_hs, radius_m) for the ends of all capsules of a loose fist.
+template <typename Visit>
+void visit_fist(const HandRig& rig, const Visit& visit) {
     for (const PalmCapsule& capsule : rig.palm) {
-        for (const Vec3& end_hs : {capsule.a_hs, capsule.b_hs}) {
-            const auto exit = exit_of(mesh, transform_point(wrist, end_hs), reach_m);
-            if (exit && (!deepest || exit->depth_m > deepest->depth_m)) {
-                deepest = exit;
-            }
+        visit(capsule.a_hs, capsule.radius_m);
+        visit(capsule.b_hs, capsule.radius_m);
+    }
+    for (const FingerRig& finger : rig.fingers) {
+        const auto points = finger_points(finger, coupled_angles(finger, k_loose_fist_curl));
+        for (std::size_t i = 0; i < finger.link_count; ++i) {
+            visit(points[i], finger.radius_m[i]);
+            visit(points[i + 1], finger.radius_m[i]);
         }
     }
+}
+
+// Of the deepest capsule end of a loose fist.
+std::optional<Exit> exit_of_fist(const GripMesh& mesh, const HandRig& rig, const Pose& wrist,
+                                 double reach_m) {
+    std::optional<Exit> deepest;
+    visit_fist(rig, [&](const Vec3& center_hs, double /*radius_m*/) {
+        const auto exit = exit_of(mesh, transform_point(wrist, center_hs), reach_m);
+        if (exit && (!deepest || exit->depth_m > deepest->depth_m)) {
+            deepest = exit;
+        }
+    });
     return deepest;
 }
 
 // How far a loose fist reaches behind the plane.
 double depth_m(const HandRig& rig, const Pose& wrist, const Exit& plane) {
     double deepest_m = 0.0;
-    const auto add = [&](const Vec3& center_hs, double radius_m) {
+    visit_fist(rig, [&](const Vec3& center_hs, double radius_m) {
         const Vec3 offset = transform_point(wrist, center_hs) - plane.point;
         deepest_m = std::max(deepest_m, radius_m - offset.dot(plane.normal));
-    };
-    for (const PalmCapsule& capsule : rig.palm) {
-        add(capsule.a_hs, capsule.radius_m);
-        add(capsule.b_hs, capsule.radius_m);
-    }
-    for (const FingerRig& finger : rig.fingers) {
-        const auto points = finger_points(finger, coupled_angles(finger, k_loose_fist_curl));
-        for (std::size_t i = 0; i < finger.link_count; ++i) {
-            add(points[i], finger.radius_m[i]);
-            add(points[i + 1], finger.radius_m[i]);
-        }
-    }
+    });
     return deepest_m;
 }
 
@@ -80,7 +83,7 @@ Pose wrist_outside_bs(const HandSurroundings& hand, const PalmTuning& tuning) {
     constexpr int k_most_faces = 3;  // faces that meet in a corner
     bool is_moved = false;
     for (int i = 0; i < k_most_faces; ++i) {
-        const auto exit = exit_of_palm(*placed.mesh, *hand.rig, wrist, tuning.reach_m);
+        const auto exit = exit_of_fist(*placed.mesh, *hand.rig, wrist, tuning.reach_m);
         if (!exit) {
             break;
         }

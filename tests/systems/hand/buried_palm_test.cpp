@@ -5,6 +5,7 @@
 #include "beam.hpp"
 #include "held_hand.hpp"
 #include "systems/rigs/hand_kinematics.hpp"
+#include "systems/rigs/hand_limits.hpp"
 
 namespace handhold::search_grip_test {
 namespace {
@@ -23,9 +24,9 @@ GripMesh make_block() {
     return build_grip_mesh(mesh);
 }
 
-Pose buried_wrist(Random& random, const HandRig& rig) {
+Pose buried_wrist(Random& random, const HandRig& rig, double highest_m = 0.005) {
     const double x = random.between(-0.5, 0.5);
-    const double y = random.between(-0.08, 0.005);
+    const double y = random.between(-0.08, highest_m);
     const Vec3 palm(x, y, random.between(-0.5, 0.5));
     const Quat rotation = random.rotation();
     return {palm - rotation * rig.palm_center_hs, rotation};
@@ -67,6 +68,26 @@ TEST(BuriedPalm, HandTrackedInsideAWallIsShownOutside) {
         without_surface += hand.surface.at(k_right).triangle == GripSurface::k_none ? 1 : 0;
     }
     EXPECT_GT(without_surface, 60);
+}
+
+// The palm is outside, or not: fingers that would close into the wall take the hand with them. The
+// axes of all capsules are outside; their sides may touch the wall.
+TEST(BuriedPalm, FistBesideAWallIsOutsideOfIt) {
+    const GripMesh block = make_block();
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+    Random random(4907);
+    int fists = 0;
+    for (int i = 0; i < 300; ++i) {
+        FittedHand hand(block, buried_wrist(random, rig, 0.08));
+        for (int frame = 0; frame < 30; ++frame) {
+            hand.frame(k_unlimited_s);
+        }
+        if (hand.surface.at(k_right).triangle == GripSurface::k_none) {
+            EXPECT_GT(lowest_m(hand), -9e-3) << i;
+            ++fists;
+        }
+    }
+    EXPECT_GT(fists, 60);
 }
 
 // A prism along z that leaves the quarter x > 0, y > 0 free.
@@ -127,6 +148,12 @@ TEST(BuriedPalm, HandOutsideOrBehindASheetStaysWhereItIsTracked) {
         for (const PalmCapsule& capsule : rig.palm) {
             for (const Vec3& end_hs : {capsule.a_hs, capsule.b_hs}) {
                 lowest = std::min(lowest, transform_point(wrist, end_hs).y());
+            }
+        }
+        for (const FingerRig& finger : rig.fingers) {
+            for (const Vec3& joint_hs :
+                 finger_points(finger, coupled_angles(finger, k_loose_fist_curl))) {
+                lowest = std::min(lowest, transform_point(wrist, joint_hs).y());
             }
         }
         wrist.position.y() += random.between(1e-4, 0.05) - lowest;

@@ -177,17 +177,19 @@ def figures(measured):
         quantity, unit = name.split("_")
         result[f"{quantity}_mean_{unit}"] = bounded(mean_of, [one[name] for one in used])
         result[f"{quantity}_p95_{unit}"] = bounded(p95_of, [one[name] for one in used])
+    result["part_deep"] = bounded(mean_of, [one["part_deep"] for one in used])
     assert set(CLASSES) < set(names)
     return result
 
 
 def rows_of(surface, grasps, capsules, gaps):
-    """Structured array, one row per grasp: every class, sync_mm and turn_deg."""
+    """Structured array, one row per grasp: every class, sync_mm, turn_deg, and part_deep (any part, the palm included)."""
     sync_mm, sync_deg = (np.array([getattr(grasp, key) for grasp in grasps], float) for key in ("sync_mm", "sync_deg"))
     classes = flags(gaps, thumb_tip_gaps_mm(surface, grasps, capsules), bends_deg(grasps), sync_mm, sync_deg,
                     thumb_overlaps_mm(grasps, capsules), fans_deg(grasps, capsules))
-    rows = np.zeros(len(grasps), [(name, bool) for name in CLASSES] + [("sync_mm", float), ("turn_deg", float)])
+    rows = np.zeros(len(grasps), [(name, bool) for name in CLASSES] + [("sync_mm", float), ("turn_deg", float), ("part_deep", bool)])
     for name, flag in classes.items():
         rows[name] = flag
     rows["sync_mm"], rows["turn_deg"] = sync_mm, sync_deg
+    rows["part_deep"] = (np.where(np.isfinite(gaps), gaps, 0.0) < -DEEP_MM).any(1)
     return rows

@@ -26,6 +26,16 @@ def record(lab, data, out):
     return True
 
 
+def played(path, tries=6):
+    """Costs of the recorded grips: the frame of the onset, the `tries` frames after it, and later ones. {name: {median, p99}}."""
+    frames = {"closing_us": [], "after_us": [], "later_us": []}
+    for _, grip in files.read_jsonl(path):
+        us = files.member(grip, "us", path)
+        for name, part in zip(frames, (us[:1], us[1:1 + tries], us[1 + tries:])):
+            frames[name] += part
+    return {name: {"median": float(numpy.median(us)), "p99": float(numpy.percentile(us, 99))} for name, us in frames.items() if us}
+
+
 def read(path):
     """Reads a file of `handhold-lab grip --warm-json`."""
     try:
