@@ -209,13 +209,16 @@ Pose target_in_hand(const HandSurroundings& hand, const FingerPose& pose,
 }
 
 // Translation and rotation advance by the same share; rotation counts tilt_cost_m_per_rad metres
-// per radian.
-void follow_palm(const Pose& target_hs, double dt_s, const PalmTuning& tuning, PalmOffset& offset) {
+// per radian. The hand moves into an authored grip at the rate at which a free body moves into the
+// hand (anchor_grabs): at PalmTuning::rate_mps alone.
+void follow_palm(const Pose& target_hs, double dt_s, bool is_authored, const PalmTuning& tuning,
+                 PalmOffset& offset) {
     const Vec3 target_turn_rad = rotation_to_vector(target_hs.rotation);
     const Vec3 remaining_m = target_hs.position - offset.shown_m;
     const Vec3 turn_rad = target_turn_rad - offset.shown_turn_rad;
     const double distance_m = remaining_m.norm() + tuning.tilt_cost_m_per_rad * turn_rad.norm();
-    const double step_m = tuning.rate_mps * dt_s;
+    const double share = is_authored ? 0.0 : 1.0 / (1.0 + k_palm_settle_s / dt_s);
+    const double step_m = std::max(tuning.rate_mps * dt_s, share * distance_m);
     if (distance_m <= step_m) {
         offset.shown_m = target_hs.position;
         offset.shown_turn_rad = target_turn_rad;
@@ -227,20 +230,22 @@ void follow_palm(const Pose& target_hs, double dt_s, const PalmTuning& tuning, P
 
 // All angles advance by the same share of their remaining change, the largest share at which none
 // exceeds its speed. Otherwise one angle would reach its target first and swing the digit through
-// the surface.
+// the surface. Opposition is as fast as opening: the thumb of an empty hand is often in what the
+// hand grips next.
 void follow_digit(double dt_s, const FingerTuning& tuning, const FingerAngles& target,
                   FingerAngles& shown) {
     double share = 1.0;
-    const auto limit = [&](double change_rad, double open_radps) {
-        const double most_rad = dt_s * (change_rad < 0.0 ? open_radps : tuning.close_radps);
+    const auto limit = [&](double change_rad, double most_radps) {
+        const double most_rad = dt_s * most_radps;
         if (std::abs(change_rad) > most_rad) {
             share = std::min(share, most_rad / std::abs(change_rad));
         }
     };
     for (std::size_t i = 0; i < k_max_links; ++i) {
-        limit(target.curl_rad[i] - shown.curl_rad[i], tuning.open_radps);
+        const double change_rad = target.curl_rad[i] - shown.curl_rad[i];
+        limit(change_rad, change_rad < 0.0 ? tuning.open_radps : tuning.close_radps);
     }
-    limit(target.opposition_rad - shown.opposition_rad, tuning.close_radps);
+    limit(target.opposition_rad - shown.opposition_rad, tuning.open_radps);
     const auto advance = [share](double to_rad, double& shown_rad) {
         shown_rad = share < 1.0 ? shown_rad + share * (to_rad - shown_rad) : to_rad;
     };
@@ -278,7 +283,8 @@ void fit_hands(const FitHandsIo& io, const Tuning& tuning, StageStats& stats,
             fit_one(hand, surface, tuning, stats, offset, pose, rows);
         }
         follow_trigger(hand, io.hand.at(hand.hand).trigger, pose);
-        follow_palm(target_in_hand(hand, pose, offset), io.dt_s, tuning.palm, offset);
+        follow_palm(target_in_hand(hand, pose, offset), io.dt_s, hand.authored != nullptr,
+                    tuning.palm, offset);
         for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
             follow_digit(io.dt_s, tuning.finger, pose.target[f], pose.shown[f]);
         }

@@ -21,6 +21,9 @@ inline constexpr double k_change_cost_share = 0.75;
 // Travel of the tracked wrist (hand_travel_m) since the last fit, below which a hand outside
 // authored grips is not fitted again: it stays where it is on its body.
 inline constexpr double k_stick_m = 1e-3;
+// The shown palm covers large offsets faster than PalmTuning::rate_mps, the largest part of them
+// within this time.
+inline constexpr double k_palm_settle_s = 0.03;
 
 struct FitHandsIo {
     double dt_s;                              // in: length of the frame; infinity: no rate limit
@@ -58,9 +61,9 @@ struct FitHandsIo {
 // as pressed the hand is a fist. A finger of known curl (HandTracking::curls) is bent as far as
 // that, from straight to a fist.
 //
-// The shown hand follows at PalmTuning::rate_mps, FingerTuning::close_radps (closing) and
-// open_radps (opening), all angles of a digit by the same share of their remaining change. Only the
-// shown hand moves, never the player.
+// The shown hand follows at PalmTuning::rate_mps (faster if its palm is far off: k_palm_settle_s),
+// FingerTuning::close_radps (closing) and open_radps (opening, and opposition), all angles of a
+// digit by the same share of their remaining change. Only the shown hand moves, never the player.
 //
 // Fallbacks counted: hand_penetrates, once per closing after which the fit still penetrates by
 // millimetres.

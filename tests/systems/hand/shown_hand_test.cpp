@@ -83,10 +83,15 @@ TEST_F(ShownHand, AnglesOfADigitAdvanceByOneShare) {
     EXPECT_GT(moved, 100);
 }
 
-TEST_F(ShownHand, ShownOffsetIsNeverFasterThanItsRate) {
+// Small offsets at the tuning's rate; of large ones a share in each frame.
+TEST_F(ShownHand, ShownOffsetIsNeverFasterThanItsRateOrShare) {
     FittedHand hand(floor, wrist_with_palm_at(rig, {0.0, -0.02, 0.0}, Vec3::UnitY()));
     Random random(2102);
-    Vec3 before = Vec3::Zero();
+    const PalmTuning& tuning = hand.tuning.palm;
+    const auto way_m = [&](const Vec3& moved_m, const Vec3& turn_rad) {
+        return moved_m.norm() + tuning.tilt_cost_m_per_rad * turn_rad.norm();
+    };
+    PalmOffset before;
     for (int frame = 0; frame < 200; ++frame) {
         if (frame % 20 == 0) {
             const double y = random.between(-0.03, 0.06);
@@ -94,14 +99,34 @@ TEST_F(ShownHand, ShownOffsetIsNeverFasterThanItsRate) {
             hand.wrist_bs() = wrist_with_palm_at(rig, {0.0, y, 0.0}, up);
         }
         hand.frame(k_dt_s);
-        const Vec3 shown = hand.offset.at(k_right).shown_m;
-        EXPECT_LE((shown - before).norm(), hand.tuning.palm.rate_mps * k_dt_s + 1e-12);
-        before = shown;
+        const PalmOffset& now = hand.offset.at(k_right);
+        const double step_m =
+            way_m(now.shown_m - before.shown_m, now.shown_turn_rad - before.shown_turn_rad);
+        const double left_m =
+            way_m(now.target_m - now.shown_m, now.target_turn_rad - now.shown_turn_rad);
+        const double share_m = (step_m + left_m) / (1.0 + k_palm_settle_s / k_dt_s);
+        EXPECT_LE(step_m, std::max(tuning.rate_mps * k_dt_s, share_m) + 1e-3) << frame;
+        before = now;
     }
     for (int frame = 0; frame < 200; ++frame) {
         hand.frame(k_dt_s);
     }
     EXPECT_LT((hand.offset.at(k_right).shown_m - hand.offset.at(k_right).target_m).norm(), 1e-12);
+}
+
+// Fingers that close while the palm is far from its target close inside the surface.
+TEST_F(ShownHand, PalmArrivesInATenthOfASecond) {
+    Random random(2107);
+    for (int i = 0; i < 100; ++i) {
+        const Vec3 up = (Vec3::UnitY() + random.vector(0.5)).normalized();
+        FittedHand hand(floor, wrist_with_palm_at(rig, {0.0, -0.03, 0.0}, up));
+        for (int frame = 0; frame < 9; ++frame) {
+            hand.frame(k_dt_s);
+        }
+        const PalmOffset& offset = hand.offset.at(k_right);
+        EXPECT_GT(offset.target_m.norm(), 0.015) << i;
+        EXPECT_LT((offset.target_m - offset.shown_m).norm(), 0.2 * offset.target_m.norm()) << i;
+    }
 }
 
 TEST_F(ShownHand, EmptyHandReturnsToTrackedPose) {
