@@ -47,11 +47,6 @@ def place(hand, gripped, wrist) -> None:
     hands.set_pose(hand, {name: move @ pose for name, pose in poses.items()})
 
 
-def frame_to_blender(frame):
-    """A frame in glTF's axes as Blender's matrix of it."""
-    return gltf.to_blender(frame)
-
-
 def furthest_m(a: dict, b: dict) -> float:
     return max((a[name].to_translation() - b[name].to_translation()).length for name in a)
 
@@ -133,7 +128,7 @@ class Authoring(unittest.TestCase):
         """The timer's function, called as the timer does; tests have no window in which Blender runs timers."""
         hand, gripped = self.gripping_hand()
         settings().live = True
-        self.assertEqual(settings().refused, "")
+        self.assertEqual(live.refused, "")
         self.assertTrue(bpy.app.timers.is_registered(live.tick))
         frame = grips.object_frame(gripped)
         points, triangles = gltf.triangles_of(gripped, bpy.context.evaluated_depsgraph_get())
@@ -142,8 +137,8 @@ class Authoring(unittest.TestCase):
         times_s = []
         for step in range(8):  # along the bar and about it, as a drag moves the object, and away at last
             far = 0.5 if step == 7 else 0.0
-            hand.matrix_world = frame_to_blender(frame) @ Matrix.Translation((0.01 * step, 0.0, far)) @ Matrix.Rotation(0.05 * step, 4, "X") \
-                @ frame_to_blender(frame).inverted() @ held
+            hand.matrix_world = gltf.to_blender(frame) @ Matrix.Translation((0.01 * step, 0.0, far)) @ Matrix.Rotation(0.05 * step, 4, "X") \
+                @ gltf.to_blender(frame).inverted() @ held
             bpy.context.view_layer.update()
             object_was = hand.matrix_world.copy()
             begin_s = time.perf_counter()
@@ -172,14 +167,34 @@ class Authoring(unittest.TestCase):
     def test_live_fit_says_what_is_missing_and_survives_deletions(self) -> None:
         settings().live = True
         self.assertFalse(settings().live)
-        self.assertIn("choose the object", settings().refused)
+        self.assertIn("choose the object", live.refused)
+        self.gripping_hand()
+        settings().side = "left"
+        bpy.ops.handhold.add_hand()
+        self.assertEqual(len(hands.hands()), 2)
+        settings().live = True
+        self.assertEqual(live.refused, "")
+        bpy.data.objects.remove(settings().gripped)
+        self.assertIsNone(live.tick())
+        self.assertFalse(settings().live)
+        self.assertFalse(bpy.app.timers.is_registered(live.tick))
+        self.assertIsNone(live.tick())
+
+    def test_live_fit_is_off_in_another_file_and_in_a_reopened_one(self) -> None:
+        file = str(WORK / "live.blend")
         self.gripping_hand()
         settings().live = True
-        self.assertEqual(settings().refused, "")
-        bpy.data.objects.remove(settings().gripped)
-        live.tick()
+        bpy.ops.wm.save_as_mainfile(filepath=file)
+        self.assertTrue(settings().live)  # saving does not end it
+        bpy.ops.wm.open_mainfile(filepath=file)
+        self.assertEqual(len(hands.hands()), 1)
         self.assertFalse(settings().live)
-        self.assertIsNone(live.tick())
+        self.assertFalse(bpy.app.timers.is_registered(live.tick))
+        settings().live = True
+        live.tick()
+        self.assertEqual((settings().live, live.refused), (True, ""))
+        bpy.ops.wm.read_homefile(use_empty=True)
+        self.assertFalse(settings().live)
 
     def test_edited_grip_is_written_and_read_back_equal(self) -> None:
         hand, gripped = self.gripping_hand()

@@ -1,21 +1,27 @@
 """The fit while the artist drags a hand: a timer asks where each hand is and closes it there again."""
 import bpy
+from bpy.app.handlers import persistent
 
 from . import fitting, grips, hands
 
 EVERY_S = 0.02
 STILL_M = 1e-5  # less is no move
 
+refused = ""  # why it could not begin, for the sidebar
 _closers: dict = {}  # by side: the gripped object, and the world with it
 _seen: dict = {}  # by hand: the wrist in the object's frame at the last fit
+
+
+def is_on() -> bool:
+    """Kept here and not in the scene, whose properties are saved with the file and come back with an undo."""
+    return bool(_closers)
 
 
 def begin(gripped) -> None:
     """Prepares the object. Called again when it was changed."""
     points, triangles = grips.gltf.triangles_of(gripped, bpy.context.evaluated_depsgraph_get())
     _seen.clear()
-    for side in fitting.SIDES:
-        _closers[side] = (gripped, fitting.Closer(points, triangles, side))
+    _closers.update({side: (gripped, fitting.Closer(points, triangles, side)) for side in fitting.SIDES})
     if not bpy.app.timers.is_registered(tick):
         bpy.app.timers.register(tick)
 
@@ -31,15 +37,21 @@ def end() -> None:
     _seen.clear()
 
 
+@persistent
+def leave_file(_file) -> None:
+    """Blender's handler before it opens another file."""
+    global refused
+    end()
+    refused = ""
+
+
 def tick():
     """Fits the hands that have moved. Returns the time until the next call, as Blender's timers want it, or None: no more."""
-    settings = bpy.context.scene.handhold
-    if not settings.live or not _closers:
-        return None
     if bpy.context.scene.frame_current == hands.RELEASED and bpy.context.mode != "POSE":  # there the artist turns single bones
         for hand in hands.hands():
-            follow(hand)
-    return EVERY_S
+            if is_on():  # the hand before it has not found the object deleted
+                follow(hand)
+    return EVERY_S if is_on() else None
 
 
 def follow(hand) -> bool:
@@ -49,7 +61,7 @@ def follow(hand) -> bool:
         frame = grips.object_frame(gripped)
         wrist = frame.inverted() @ hands.tracked_wrist(hand)
     except ReferenceError:  # the object was deleted
-        bpy.context.scene.handhold.live = False
+        end()
         return False
     before = _seen.get(hand.name)
     if before is not None and max(abs(a - b) for row, old in zip(wrist, before) for a, b in zip(row, old)) < STILL_M:

@@ -21,21 +21,20 @@ class Preferences(bpy.types.AddonPreferences):
             self.layout.prop(self, name)
 
 
-def switch_live(settings, context) -> None:
+def switch_live(settings, on: bool) -> None:
     """Called when the artist switches the live fit. What it cannot do is shown in the sidebar."""
-    settings.refused = ""
-    if not settings.live:
-        live.end()
+    live.end()
+    live.refused = ""
+    if not on:
         return
     try:
         if settings.gripped is None:
             raise ValueError("choose the object that is gripped")
         add_binding_to_path()
-        context.scene.frame_set(hands.RELEASED)
+        bpy.context.scene.frame_set(hands.RELEASED)
         live.begin(settings.gripped)
     except (ImportError, OSError, ValueError) as error:
-        settings["live"] = False
-        settings.refused = NO_BINDING.format(error) if isinstance(error, ImportError) else str(error)
+        live.refused = NO_BINDING.format(error) if isinstance(error, ImportError) else str(error)
 
 
 NO_BINDING = "the Python binding or its library is not there, name them in the add-on's preferences: {}"
@@ -45,9 +44,8 @@ class Settings(bpy.types.PropertyGroup):
     name: bpy.props.StringProperty(name="Name", default="grip", description="The grip's name, unique among those of the object")
     gripped: bpy.props.PointerProperty(name="Object", type=bpy.types.Object, description="What the hand grips. Its origin is the body's frame")
     side: bpy.props.EnumProperty(name="Hand", items=SIDE_ITEMS)
-    live: bpy.props.BoolProperty(name="Close While Dragging", update=switch_live, options={"SKIP_SAVE"},
+    live: bpy.props.BoolProperty(name="Close While Dragging", get=lambda _: live.is_on(), set=switch_live,
                                  description="The runtime fits the hand again whenever you move it, or the object. Switched off, the hand stays as it is shown")
-    refused: bpy.props.StringProperty(options={"SKIP_SAVE"})
     controllers: bpy.props.StringProperty(name="Controller", subtype="FILE_PATH", description="A profile (.json) of a real controller; empty: a plain wand")
     shows_controllers: bpy.props.BoolProperty(name="Show Controllers", default=True, update=lambda self, _: hands.show_controllers(self.shows_controllers))
     finger: bpy.props.EnumProperty(name="Finger", items=[(name, name.title(), "") for name in fitting.FINGERS], default="index")
@@ -247,10 +245,13 @@ def register() -> None:
     for one in CLASSES:
         bpy.utils.register_class(one)
     bpy.types.Scene.handhold = bpy.props.PointerProperty(type=Settings)
+    bpy.app.handlers.load_pre.append(live.leave_file)
 
 
 def unregister() -> None:
     live.end()
+    if live.leave_file in bpy.app.handlers.load_pre:
+        bpy.app.handlers.load_pre.remove(live.leave_file)
     del bpy.types.Scene.handhold
     for one in reversed(CLASSES):
         bpy.utils.unregister_class(one)

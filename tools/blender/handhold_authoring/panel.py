@@ -1,7 +1,7 @@
 """The sidebar of the 3D view."""
 import bpy
 
-from . import hands, operators
+from . import hands, live, operators
 
 
 class Panel(bpy.types.Panel):
@@ -20,8 +20,8 @@ class Panel(bpy.types.Panel):
         box.prop(settings, "shows_controllers")
         layout.operator(operators.CloseHand.bl_idname, icon="SNAP_ON")
         layout.prop(settings, "live", toggle=True, icon="SNAP_ON" if settings.live else "SNAP_OFF")
-        if settings.refused:
-            layout.label(text=settings.refused, icon="ERROR")
+        if live.refused:
+            layout.label(text=live.refused, icon="ERROR")
         box = layout.box()
         frame = context.scene.frame_current
         box.label(text={hands.RELEASED: "Frame 1: trigger released", hands.PRESSED: "Frame 11: trigger pressed"}.get(frame, f"Frame {frame}"))
