@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Makes the packages that pip, Unity and Blender install, of the archives of tools/package.
 
-usage: packaging/engine_packages.py ARCHIVES FOLDER
-    ARCHIVES: the folder with handhold-VERSION-linux-x86_64.tar.gz and its like; packages for what is not there are left out
+usage: packaging/engine_packages.py FOLDER ARCHIVE...
+    ARCHIVE: handhold-VERSION-linux-x86_64.tar.gz and its like, made from these sources: the bindings are taken from here, the libraries from there
 
 Writes into FOLDER and prints the paths:
     handhold-VERSION-py3-none-PLATFORM.whl   the Python binding with one platform's library, for `pip install FILE`
@@ -73,12 +73,14 @@ def add_on(archives: list[Path]) -> dict[str, Entry]:
 
 
 def main() -> int:
-    if len(sys.argv) != 3:
+    if len(sys.argv) < 3:
         print(__doc__, file=sys.stderr)
         return 2
-    archives, folder, version = Path(sys.argv[1]), Path(sys.argv[2]), archive.version()
+    folder, version = Path(sys.argv[1]), archive.version()
     folder.mkdir(parents=True, exist_ok=True)
-    found = {name: archives / f"handhold-{version}-{name}" for name in WHEELS if (archives / f"handhold-{version}-{name}").is_file()}
+    found = {path.name.removeprefix(f"handhold-{version}-"): path for path in map(Path, sys.argv[2:])}
+    if unknown := [str(path) for name, path in found.items() if name not in WHEELS]:
+        raise SystemExit(f"{', '.join(unknown)}: no native archive of version {version}")
     for name, archived in found.items():
         path = folder / f"handhold-{version}-py3-none-{WHEELS[name]}.whl"
         archive.write_zip(path, "", wheel(archived, WHEELS[name], version))

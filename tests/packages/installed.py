@@ -5,7 +5,7 @@ usage: tests/packages/installed.py PACKAGES REFERENCE WORK [PROGRAM]
     PACKAGES: the folder with the packages; REFERENCE: folder with this machine's handhold-grip and handhold-wall; WORK: a folder of its own,
     emptied first; PROGRAM: the program handhold, which the Blender add-on runs
 
-The wheel by pip, Unity's package compiled against stand-ins of Unity's types and run by Mono, the add-on by Blender's own installer: each gets
+The wheel by pip in a virtual environment, Unity's package compiled against stand-ins of Unity's types and run by Mono, the add-on by Blender's own installer: each gets
 the reference's state hashes, or closes a hand. Exit status 0: they do; a line "SKIPPED" says what could not be tried.
 """
 import os
@@ -72,14 +72,15 @@ def compare(how: str, said: str, expected: list[str]) -> None:
 
 
 def try_wheel(packages: Path, expected: list[str], work: Path) -> None:
-    if not can(PYTHON, "-c", "import numpy, pip"):
-        skip("the wheel, without Debian's numpy and pip (tools/install_packages package)")
+    if not can(PYTHON, "-c", "import numpy, venv, ensurepip"):
+        skip("the wheel, without Debian's numpy and venv (tools/install_packages package)")
         return
     wheel = one(packages, "handhold-*-py3-none-manylinux*_x86_64.whl")
-    site = work / "site"
-    run(PYTHON, "-m", "pip", "install", "--no-index", "--no-deps", "--quiet", "--root-user-action=ignore", "--target", site, wheel)
-    environment = {name: text for name, text in os.environ.items() if name not in ("HANDHOLD_LIBRARY", "LD_LIBRARY_PATH")}
-    compare("wheel by pip", run(PYTHON, "-B", SOURCE / "tests/bindings/scenes.py", env=dict(environment, PYTHONPATH=str(site))), expected)
+    # As docs/guide/in_your_engine.md says. Debian's pip installs nothing outside of a virtual environment.
+    environment = {name: text for name, text in os.environ.items() if name not in ("HANDHOLD_LIBRARY", "LD_LIBRARY_PATH", "PYTHONPATH")}
+    run(PYTHON, "-m", "venv", "--system-site-packages", work / "v", env=environment)
+    run(work / "v/bin/pip", "install", "--no-index", wheel, env=environment)
+    compare("wheel by pip", run(work / "v/bin/python", "-B", SOURCE / "tests/bindings/scenes.py", env=environment), expected)
 
 
 def try_unity(packages: Path, expected: list[str], work: Path) -> None:
@@ -90,7 +91,7 @@ def try_unity(packages: Path, expected: list[str], work: Path) -> None:
         if not (package / name).is_file():
             raise SystemExit(f"Unity's package lacks {name}")
     if not shutil.which("mcs") or not shutil.which("mono"):
-        skip("Unity's package, without Mono (tools/install_packages test)")
+        skip("Unity's package, without Mono (tools/install_packages package)")
         return
     sources = sorted(package.rglob("*.cs"))
     run("mcs", "-unsafe", "-warnaserror", "-define:UNITY_5_3_OR_NEWER", f"-out:{work}/unity.exe", *sources,
@@ -104,7 +105,7 @@ def try_unity(packages: Path, expected: list[str], work: Path) -> None:
 
 def try_blender(packages: Path, program: Path | None, work: Path) -> None:
     if program is None or not program.is_file() or not shutil.which("blender"):
-        skip("the Blender add-on, without Blender or the program handhold")
+        skip("the Blender add-on, without Blender (tools/install_packages package) or the program build/release/bin/handhold")
         return
     script = work / "install.py"
     script.write_text(BLENDER, encoding="utf-8")

@@ -109,7 +109,7 @@ class Trial:
 
 
 def skip(what: str) -> None:
-    print(f"  SKIPPED: {what} (tools/install_packages test)")
+    print(f"  SKIPPED: {what} (tools/install_packages package)")
 
 
 def said_by(text: str) -> str:

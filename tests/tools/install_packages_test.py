@@ -74,15 +74,15 @@ class InstallPackages(unittest.TestCase):
 
     def test_ci_and_long_hold_the_sets_that_they_run(self):
         installed = {}
-        for package_set in ("demo", "test", "docs", "blender", "native", "web", "arm64", "windows", "ci", "long"):
+        for package_set in ("demo", "test", "docs", "blender", "native", "web", "arm64", "windows", "package", "ci", "long"):
             self.install(package_set)
             installed[package_set] = set(self.calls()[-1].split())
         for package_set in ("demo", "test", "docs", "native", "web"):
             self.assertLess(installed[package_set], installed["ci"])
-        for package_set in ("ci", "blender", "arm64", "windows"):
+        for package_set in ("ci", "blender", "arm64", "windows", "package"):
             self.assertLess(installed[package_set], installed["long"])
         for package, package_set in (("mono-mcs", "test"), ("blender", "blender"), ("wine64", "windows"), ("node-ws", "web"), ("pkg-config", "native"),
-                                     ("chromium", "long")):
+                                     ("python3-venv", "package"), ("chromium", "long")):
             self.assertIn(package, installed[package_set])
 
     def test_missing_packages_are_only_named_on_request(self):
