@@ -1,23 +1,21 @@
 // One match of the arena: two native peers, by QUIC and by WebSocket, the page in Chromium, and the peers of HANDHOLD_PEERS on other processors
-// and systems, a list of NAME=COMMAND by semicolons. Other variables: page.mjs, match_peer.mjs. HANDHOLD_SECONDS: so much of the match must
+// and systems; skipped if that is not set. Other variables: page.mjs, match_peer.mjs. HANDHOLD_SECONDS: so much of the match must
 // be compared on each machine, default 60. HANDHOLD_PICTURES: folder for a picture of the page. See .ci/all_targets.
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { DrivenPeer, equalHashes, Program, readOffer, whyNot } from './match_peer.mjs';
+import { DrivenPeer, equalHashes, namedPeers as peers, Program, readOffer, whyNot } from './match_peer.mjs';
 import { playInPage, withPage } from './page.mjs';
 
-const skip = whyNot() ?? false;
+const skip = whyNot() ?? (process.env.HANDHOLD_PEERS === undefined ? 'HANDHOLD_PEERS is not set' : false);
 const seconds = Number(process.env.HANDHOLD_SECONDS ?? 60);
 const hashEvery_s = 2; // 180 ticks
-const peers = (process.env.HANDHOLD_PEERS ?? '').split(';').filter((one) => one !== '')
-    .map((one) => [one.slice(0, one.indexOf('=')), one.slice(one.indexOf('=') + 1)]);
 
 test('native peers, a page and peers on other targets play one match: equal hashes', { skip, timeout: 900000 }, async (context) => {
     assert.ok(peers.length > 0, 'HANDHOLD_PEERS names no peers');
     const server = new Program(context, 'serve', '--scene', 'arena', '--players', peers.length + 3);
     const { url, quic } = await server.waitFor('serves');
-    const driven = peers.map(([name, command]) => new DrivenPeer(context, name, command.split(' ')));
+    const driven = peers.map(([name, command]) => new DrivenPeer(context, name, command));
     const offer = await readOffer(url);
     for (const peer of driven) {
         await peer.load(offer);

@@ -1,11 +1,9 @@
-// One match of peers for different processors and systems: the native game's, the page's module, and those of HANDHOLD_PEERS, a list of
-// NAME=COMMAND by semicolons (tests/portability/match_peer.cpp). Other variables: match_peer.mjs. HANDHOLD_SECONDS: length, default 10.
+// One match of peers for different processors and systems: the native game's, the page's module, and those of HANDHOLD_PEERS
+// (tests/portability/match_peer.cpp). Other variables: match_peer.mjs. HANDHOLD_SECONDS: length, default 10.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { DrivenPeer, equalHashes, loadPeerModule, playOn, Program, readOffer, whyNot } from './match_peer.mjs';
+import { DrivenPeer, equalHashes, loadPeerModule, namedPeers as peers, playOn, Program, readOffer, whyNot } from './match_peer.mjs';
 
-const peers = (process.env.HANDHOLD_PEERS ?? '').split(';').filter((one) => one !== '')
-    .map((one) => [one.slice(0, one.indexOf('=')), one.slice(one.indexOf('=') + 1)]);
 const skip = whyNot() ?? (peers.length === 0 ? 'HANDHOLD_PEERS names no peers' : false);
 
 test('peers on other targets have the hashes of the native server', { skip, timeout: 900000 }, async (context) => {
@@ -14,7 +12,7 @@ test('peers on other targets have the hashes of the native server', { skip, time
     const server = new Program(context, 'serve', '--scene', 'arena', '--players', peers.length + 2);
     const { url } = await server.waitFor('serves');
     const offer = await readOffer(url);
-    const driven = peers.map(([name, command]) => new DrivenPeer(context, name, command.split(' ')));
+    const driven = peers.map(([name, command]) => new DrivenPeer(context, name, command));
     for (const peer of driven) {
         await peer.load(offer);
     }

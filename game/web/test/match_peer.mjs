@@ -9,6 +9,9 @@ import { createInterface } from 'node:readline';
 import { pathToFileURL } from 'node:url';
 
 export const game = join(resolve(process.env.HANDHOLD_BIN), 'handhold');
+// The peers of HANDHOLD_PEERS, as [name, [program, argument...]]: a list of NAME=WORDS by semicolons, with a tab between two words.
+export const namedPeers = (process.env.HANDHOLD_PEERS ?? '').split(';').filter((one) => one !== '')
+    .map((one) => [one.slice(0, one.indexOf('=')), one.slice(one.indexOf('=') + 1).split('\t')]);
 export const sleep = (ms) => new Promise((done) => setTimeout(done, ms));
 
 /** Null, or why matches cannot be tested here; with HANDHOLD_MATCH_REQUIRED=1 throws that. */
