@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "components/grab.hpp"
 #include "engine/ecs/column.hpp"
 
@@ -56,12 +58,12 @@ inline bool share_hold(const Grab& a, const Grab& b) {
 
 // True if `staying` must take a new anchor when `leaving`, the player's other hand, lets go: else
 // the player or the held body would jump by what the two hands had divided between them. Hands on
-// different bodies (a rail and a drawer at its end) contradict each other if `staying` has an
-// error.
+// different bodies (a rail and a drawer at its end) contradict each other if both have an error.
 inline bool binds(const Grab& leaving, const Grab& staying) {
     constexpr double k_contradicts_m = 1e-4;
     return share_hold(leaving, staying) ||
-           (staying.kind != GripKind::none && staying.error_m > k_contradicts_m);
+           (staying.kind != GripKind::none &&
+            std::min(leaving.error_m, staying.error_m) > k_contradicts_m);
 }
 
 // True if the hand at `index` is the first of two hands on one body: the hand that closed earlier,

@@ -30,14 +30,21 @@ double square_speed(const SolverBody& body, const Vec3& velocity_mps, const Vec3
     return velocity_mps.squaredNorm() + spin_bs.cwiseAbs2().dot(body.inertia_kgm2) / body.mass_kg;
 }
 
-bool has_joint(const ConstraintGraph& graph, const Island& island, std::uint32_t body) {
-    return std::ranges::any_of(graph.blocks_of(island), [&](std::uint32_t i) {
+// Work of the muscles that move the island's hands in their play spaces, J: the impulses of the
+// drives along the motions that they demand.
+double work_of_hands_j(const ConstraintGraph& graph, const Island& island) {
+    double work_j = 0.0;
+    for (const std::uint32_t i : graph.blocks_of(island)) {
         const RowBlock& block = graph.blocks[i];
-        return is_joint(block) && (block.a == body || block.b == body);
-    });
+        if (is_drive(block)) {
+            work_j -= block.impulse_ws_ns.dot(block.drive_velocity_ws_mps) +
+                      block.angular_impulse_ws_nms.dot(block.drive_spin_ws_radps);
+        }
+    }
+    return work_j;
 }
 
-// True if the solve made a jointed body of an island with hands too fast.
+// True if the work of hands made a jointed body of the island too fast.
 bool are_hands_too_strong(const SolveVelocitiesIo& io, const Island& island,
                           const LocomotionTuning& tuning) {
     const FrameGraph& frame = io.frame;
@@ -47,21 +54,32 @@ bool are_hands_too_strong(const SolveVelocitiesIo& io, const Island& island,
         return false;
     }
     const auto& [reference, max_mps] = *limits;
-    return std::ranges::any_of(frame.graph.bodies_of(island), [&](std::uint32_t i) {
-        const SolverBody& body = frame.graph.bodies[i];
+    double least = max_mps * max_mps;  // square of the speed that is too fast
+    bool knows_driven = false;
+    const auto is_too_fast = [&](std::uint32_t index) {
+        const SolverBody& body = frame.graph.bodies[index];
         if (body.role != BodyRole::free) {
             return false;
         }
         const double square = square_speed(body, body.velocity_mps - reference, body.spin_radps);
-        if (square <= max_mps * max_mps || !has_joint(frame.graph, island, i)) {
+        if (square <= least) {
             return false;
         }
-        const FrameGraph::PhaseBody& before = frame.phase[i];
-        const double driven_mps = driven_speed(frame, island, reference);
-        return square > std::max(driven_mps * driven_mps,
-                                 square_speed(body, before.velocity_before_mps - reference,
-                                              before.spin_before_radps));
-    });
+        if (!knows_driven) {
+            const double driven_mps = driven_speed(frame, island, reference);
+            least = std::max(least, driven_mps * driven_mps);
+            knows_driven = true;
+        }
+        const FrameGraph::PhaseBody& before = frame.phase[index];
+        return square > std::max(least, square_speed(body, before.velocity_before_mps - reference,
+                                                     before.spin_before_radps));
+    };
+    const auto has_fast_body = [&](std::uint32_t i) {
+        const RowBlock& block = frame.graph.blocks[i];
+        return is_joint(block) && (is_too_fast(block.a) || is_too_fast(block.b));
+    };
+    return std::ranges::any_of(frame.graph.blocks_of(island), has_fast_body) &&
+           work_of_hands_j(frame.graph, island) > 0.0;
 }
 
 void restore_velocities(const Island& island, FrameGraph& frame) {

@@ -14,10 +14,10 @@
 // systems/physics/shared/mass_shares.hpp says who takes which share of the momentum.
 //
 // A hand has no limit of force. Near the dead centre of a mechanism (a door pulled towards its
-// hinge, a head pressed against the hub of a fan) it would give the mechanism any speed. An island
-// in which the hands make a jointed body faster than LocomotionTuning::object_speed_max_mps is
-// therefore solved without its hands in this frame: its bodies keep the velocities that they had,
-// and contacts and joints still hold. Compared is the speed of the body's points, root mean square.
+// hinge, a head pressed against the hub of a fan) it would give the mechanism any speed. If the
+// work of hands makes a jointed body faster than LocomotionTuning::object_speed_max_mps, its island
+// is solved without its hands in this frame: its bodies keep the velocities that they had, and
+// contacts and joints still hold. Compared is the speed of the body's points, root mean square.
 // Fallbacks counted: friction_not_converged, solver_budget, object_speed_clamped.
 namespace handhold {
 
