@@ -118,8 +118,8 @@ TEST(BoxPairs, AgreeWithGjkAndEpaInRandomPoses) {
     EXPECT_GT(same_normal, k_rounds * 99 / 100);  // the others have two shortest exits
 }
 
-// A gap that the closest features leave is found whatever they are: the second box touches the
-// first with a face, an edge or a corner and is moved off along the normal.
+// A gap that the closest features leave is found whatever they are. The boxes are moved apart along
+// the normal of two corners, of two edges, or of a face of the second and a corner of the first.
 TEST(BoxPairs, GapIsThatOfTheClosestFeatures) {
     Random random(302);
     for (int round = 0; round < 4000; ++round) {
@@ -129,11 +129,17 @@ TEST(BoxPairs, GapIsThatOfTheClosestFeatures) {
         pair.pose_b = {random.vector(1.0), random.rotation()};
         const Quat turn = random.rotation();
         pair.pose_a = {pair.pose_b.position, pair.pose_b.rotation * turn};
-        // The boxes are moved apart along a direction that both see as the normal of a corner.
-        const Vec3 normal_bs = random.direction();
+        Vec3 normal_bs = random.direction();
+        const Vec3 axis_bs = Vec3::Unit(round / 3 % 3);
+        if (round % 3 == 1) {
+            normal_bs = axis_bs.cross(turn * Vec3::Unit(round / 9 % 3)).normalized();
+        } else if (round % 3 == 2) {
+            normal_bs = random.between(0.0, 1.0) < 0.5 ? Vec3(-axis_bs) : axis_bs;
+        }
         const Vec3 normal_ws = pair.pose_b.rotation * normal_bs;
         const auto corner_along = [](const Vec3& half, const Vec3& direction) {
-            return Vec3(direction.array().sign() * half.array());
+            const auto is_zero = direction.array().abs() < 1e-9;  // the middle of a face or an edge
+            return Vec3(is_zero.select(0.0, direction.array().sign() * half.array()));
         };
         const Vec3 corner_b = transform_point(pair.pose_b, corner_along(pair.half_b, normal_bs));
         const Vec3 corner_a =
