@@ -208,7 +208,7 @@ Vec3 foot_of_deepest(const OverFace& over) {
         polygon.add(over.centre + over.axes * point);
     }
     polygon.clip_to_face(over.ground.half_m, over.axis);
-    if (polygon.count == 0) {  // they meet in one corner, by rounding
+    if (polygon.count == 0) {  // rounding: they meet in one corner
         polygon.add(corner);
     }
     double lowest_m = std::numeric_limits<double>::infinity();
