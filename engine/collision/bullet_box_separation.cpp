@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/collision/box_polygon.hpp"
+
 namespace handhold {
 namespace {
 
@@ -173,6 +175,57 @@ bool closest_on_edges(const Boxes& boxes, const EdgePair& edges, CoreSeparation&
     return std::abs(on_a) <= half_a && std::abs(on_b) <= half_b;
 }
 
+// `body` as seen from a face of `ground`: its axes (as columns) and centre in ground's axes.
+struct OverFace {
+    const Box& ground;
+    const Box& body;
+    Mat3 axes;
+    Vec3 centre;
+    int axis = 0;  // the face's axis
+    double side = 1.0;
+};
+
+// The point of the face that the body's deepest point is over, in near space. Where several corners
+// of the overlap are equally deep, their mean: which of them is deepest is then rounding, and a
+// corner of the body may be beside the face.
+Vec3 foot_of_deepest(const OverFace& over) {
+    constexpr double k_same_height_m = 1e-9;
+    constexpr double k_parallel = 1e-4;
+    const Vec3 into_body = -over.side * over.axes.row(over.axis).transpose();
+    const auto foot = [&over](const Vec3& point) {
+        Vec3 on_face = point.cwiseMin(over.ground.half_m).cwiseMax(-over.ground.half_m);
+        on_face[over.axis] = over.side * over.ground.half_m[over.axis];
+        return over.ground.at(on_face);
+    };
+    const Vec3 corner = over.centre + over.axes * corner_along(over.body, into_body);
+    if (into_body.cwiseAbs().minCoeff() > k_parallel) {
+        return foot(corner);
+    }
+    int incident = 0;
+    into_body.cwiseAbs().maxCoeff(&incident);
+    BoxPolygon polygon;
+    for (const Vec3& point : box_face(over.body.half_m, incident, sign_of(into_body[incident]))) {
+        polygon.add(over.centre + over.axes * point);
+    }
+    polygon.clip_to_face(over.ground.half_m, over.axis);
+    if (polygon.count == 0) {  // rounding: they meet in one corner
+        polygon.add(corner);
+    }
+    double lowest_m = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < polygon.count; ++k) {
+        lowest_m = std::min(lowest_m, over.side * polygon.corners[k][over.axis]);
+    }
+    Vec3 sum = Vec3::Zero();
+    double count = 0.0;
+    for (std::size_t k = 0; k < polygon.count; ++k) {
+        if (over.side * polygon.corners[k][over.axis] < lowest_m + k_same_height_m) {
+            sum += polygon.corners[k];
+            count += 1.0;
+        }
+    }
+    return foot(sum / count);
+}
+
 CoreSeparation overlap_along(const Boxes& boxes, const Axis& axis) {
     CoreSeparation result;
     result.normal = normal_of(boxes, axis);
@@ -183,12 +236,14 @@ CoreSeparation overlap_along(const Boxes& boxes, const Axis& axis) {
     const Vec3 through = axis.separation_m * result.normal;
     switch (axis.feature) {
         case Feature::face_b:
-            result.point_a_ns = boxes.a.at(corner_along(boxes.a, into_a));
-            result.point_b_ns = result.point_a_ns - through;
+            result.point_b_ns = foot_of_deepest({boxes.b, boxes.a, boxes.turn.transpose(),
+                                                 boxes.in_b, axis.j, sign_of(boxes.in_b[axis.j])});
+            result.point_a_ns = result.point_b_ns + through;
             break;
         case Feature::face_a:
-            result.point_b_ns = boxes.b.at(corner_along(boxes.b, into_b));
-            result.point_a_ns = result.point_b_ns + through;
+            result.point_a_ns = foot_of_deepest(
+                {boxes.a, boxes.b, boxes.turn, -boxes.in_a, axis.i, -sign_of(boxes.in_a[axis.i])});
+            result.point_b_ns = result.point_a_ns - through;
             break;
         case Feature::edges:
             closest_on_edges(boxes,

@@ -14,12 +14,17 @@ btDbvtVolume to_volume(const Bounds& bounds) {
     return btDbvtVolume::FromMM(to_bullet(bounds.low), to_bullet(bounds.high));
 }
 
-// A leaf's box is larger than the body's bounds by this share of the body's radius, on each side. A
-// body that drifts changes the tree only when it leaves that box.
+// A leaf's box is larger than the body's bounds by this share of the body's radius, on each side,
+// and by no more than k_max_slack_m. A body that drifts changes the tree only when it leaves that
+// box. Fixed bodies that do not move get no slack.
 constexpr double k_slack_share = 0.2;
+constexpr double k_max_slack_m = 0.25;
 // A leaf's box is replaced if it exceeds the bounds by more than this many times that slack: the
 // body was fast and has become slow.
 constexpr double k_max_slacks = 4.0;
+// A list of neighbours has room for this many without allocating, and drops the bodies that have
+// left whenever it has grown by as many.
+constexpr std::size_t k_many_neighbours = 64;
 
 bool has_shape(const ColliderProxy& proxy) { return proxy.shape != k_no_shape; }
 
@@ -56,7 +61,9 @@ void Broadphase::place(BroadphaseBody& body, const ShapeExtent& extent) {
         return;
     }
     body.bounds_ws = swept_bounds(extent, body.proxy.from_ws, body.proxy.to_ws);
-    const double slack_m = k_slack_share * extent.radius_m;
+    const bool is_still = !body.proxy.free && same_pose(body.proxy.from_ws, body.proxy.to_ws);
+    const double slack_m =
+        is_still ? 0.0 : std::min(k_slack_share * extent.radius_m, k_max_slack_m);
     if (body.leaf != nullptr && contains(body.leaf_ws, body.bounds_ws) &&
         contains(body.bounds_ws.grown(k_max_slacks * slack_m), body.leaf_ws)) {
         return;
@@ -218,6 +225,7 @@ std::span<const std::size_t> Broadphase::find_leaves(const Bounds& box,
     scratch.found.reserve(bodies_.size());
     scratch.stack.reserve(k_stack);
     Collector collector(scratch.found);
+    ++scratch.tree_queries;
     tree_.collideTVNoStackAlloc(tree_.m_root, to_volume(box), scratch.stack, collector);
     std::sort(scratch.found.begin(), scratch.found.end());
     return scratch.found;
@@ -232,14 +240,13 @@ std::span<const std::size_t> Broadphase::find(const Bounds& box, BroadphaseScrat
 }
 
 void Broadphase::add_neighbour(std::size_t body, std::size_t other, double margin_m) {
-    constexpr std::size_t k_many = 64;
     std::vector<std::size_t>& list = neighbours_[body];
     const auto place = std::ranges::lower_bound(list, other);
     if (place != list.end() && *place == other) {
         return;
     }
     list.insert(place, other);
-    if (list.size() % k_many == 0) {  // drops the bodies that have left
+    if (list.size() % k_many_neighbours == 0) {
         const Bounds near_ws = bodies_[body].leaf_ws.grown(margin_m);
         std::erase_if(list, [this, &near_ws](std::size_t index) {
             return !overlaps(bodies_[index].leaf_ws, near_ws);
@@ -248,24 +255,26 @@ void Broadphase::add_neighbour(std::size_t body, std::size_t other, double margi
 }
 
 void Broadphase::update_neighbours(double margin_m, BroadphaseScratch& scratch) {
-    constexpr std::size_t k_usual_neighbours = 16;
     if (margin_m != neighbour_margin_m_) {
         neighbour_margin_m_ = margin_m;
         neighbours_.resize(std::max(neighbours_.size(), bodies_.size()));
         moved_leaves_.reserve(bodies_.size() + 1);
         moved_leaves_.clear();
+        // The queries of the free bodies find the fixed ones too.
         for (std::size_t i = 0; i < bodies_.size(); ++i) {
             neighbours_[i].clear();
-            neighbours_[i].reserve(k_usual_neighbours);
-            moved_leaves_.push_back(i);
+            if (bodies_[i].proxy.free) {
+                moved_leaves_.push_back(i);
+            }
         }
     }
     for (const std::size_t moved : moved_leaves_) {
+        const bool is_free = bodies_[moved].proxy.free;
         neighbours_[moved].clear();
+        neighbours_[moved].reserve(is_free ? k_many_neighbours : 0);
         if (bodies_[moved].leaf == nullptr) {
             continue;
         }
-        const bool is_free = bodies_[moved].proxy.free;
         for (const std::size_t other :
              find_leaves(bodies_[moved].leaf_ws.grown(margin_m), scratch)) {
             if (is_free) {

@@ -34,6 +34,7 @@ struct BroadphaseBody {
 
 // Scratch memory of one thread's queries. Its content is not used between calls.
 struct BroadphaseScratch {
+    std::uint64_t tree_queries = 0;  // counts the queries of the tree; the owner resets it
     std::vector<std::size_t> found;
     btAlignedObjectArray<const btDbvtNode*> stack;
 };

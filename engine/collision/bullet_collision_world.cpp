@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <utility>
 
 #include "engine/collision/bullet_world.hpp"
 #include "engine/core/check.hpp"
@@ -236,6 +237,7 @@ CollisionWork CollisionWorld::take_work() {
     CollisionWork work = impl_->work;
     work.bounds_updates = impl_->broadphase.last_change() - impl_->counted_changes;
     impl_->counted_changes = impl_->broadphase.last_change();
+    work.tree_queries = std::exchange(impl_->broadphase_scratch.tree_queries, 0);
     impl_->work = {};
     return work;
 }

@@ -1,7 +1,7 @@
-// Face-face contacts come from Bullet's polygon clipping. This file adds two points for nearly
-// parallel edges (Bullet gives one, and its perturbed manifolds are off by up to 0.7 mm), the
-// curved sides of cylinders, and the same for two boxes in their own axes, at a quarter of the
-// cost.
+// Face-face contacts of hulls come from Bullet's polygon clipping, those of two boxes from clipping
+// in the boxes' own axes, at a quarter of the cost. This file also adds two points for nearly
+// parallel edges (Bullet gives one, and its perturbed manifolds are off by up to 0.7 mm) and the
+// curved sides of cylinders.
 #include "engine/collision/bullet_manifold.hpp"
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 
 #include <BulletCollision/NarrowPhaseCollision/btPolyhedralContactClipping.h>
 
+#include "engine/collision/box_polygon.hpp"
 #include "engine/collision/contact_outline.hpp"
 
 namespace handhold {
@@ -107,36 +108,6 @@ struct Pair {
     }
 };
 
-// A convex polygon in a box's axes. A face that four sides clip has at most eight corners; with
-// rounding, corners in one line may count twice.
-struct BoxPolygon {
-    std::array<Vec3, 16> corners;
-    std::size_t count = 0;
-
-    void add(const Vec3& corner) {
-        if (count < corners.size()) {
-            corners[count++] = corner;
-        }
-    }
-    // Keeps the part where side * x[axis] <= limit_m.
-    void clip(int axis, double side, double limit_m) {
-        const BoxPolygon whole = *this;
-        count = 0;
-        for (std::size_t k = 0; k < whole.count; ++k) {
-            const Vec3& from = whole.corners[k];
-            const Vec3& to = whole.corners[k + 1 == whole.count ? 0 : k + 1];
-            const double out_from = side * from[axis] - limit_m;
-            const double out_to = side * to[axis] - limit_m;
-            if (out_from <= 0.0) {
-                add(from);
-            }
-            if ((out_from < 0.0 && out_to > 0.0) || (out_from > 0.0 && out_to < 0.0)) {
-                add(from + out_from / (out_from - out_to) * (to - from));
-            }
-        }
-    }
-};
-
 // clip() for two boxes.
 template <typename Visit>
 void clip_boxes(const Convex& ground, const Convex& body, const Vec3& up, const Visit& visit) {
@@ -145,18 +116,10 @@ void clip_boxes(const Convex& ground, const Convex& body, const Vec3& up, const 
     const BoxFace incident(to_local(body, -up));
     const btTransform to_ground = ground.pose_ns.inverseTimes(body.pose_ns);
     BoxPolygon polygon;
-    for (int k = 0; k < 4; ++k) {
-        Vec3 corner = *body.box_half_m;
-        corner[incident.axis] *= incident.side;
-        corner[(incident.axis + 1) % 3] *= k == 0 || k == 3 ? 1.0 : -1.0;
-        corner[(incident.axis + 2) % 3] *= k < 2 ? 1.0 : -1.0;
+    for (const Vec3& corner : box_face(*body.box_half_m, incident.axis, incident.side)) {
         polygon.add(from_bullet(to_ground * to_bullet(corner)));
     }
-    for (const int axis : {(face.axis + 1) % 3, (face.axis + 2) % 3}) {
-        const double limit_m = (*ground.box_half_m)[axis] + k_inside_m;
-        polygon.clip(axis, 1.0, limit_m);
-        polygon.clip(axis, -1.0, limit_m);
-    }
+    polygon.clip_to_face(*ground.box_half_m + Vec3::Constant(k_inside_m), face.axis);
     for (std::size_t k = 0; k < polygon.count; ++k) {
         Vec3 foot = polygon.corners[k];
         foot[face.axis] = face.side * (*ground.box_half_m)[face.axis];

@@ -75,7 +75,6 @@ void CollisionWorld::Impl::mark_near_changes(double margin_m) {
                 box.low = box.low.cwiseMin(body.old_bounds_ws.low);
                 box.high = box.high.cwiseMax(body.old_bounds_ws.high);
             }
-            ++work.tree_queries;
             for (const std::size_t other :
                  broadphase.find_around(index, box.grown(margin_m), margin_m, broadphase_scratch)) {
                 near_changed.push_back(other);
@@ -117,7 +116,6 @@ void CollisionWorld::Impl::find_visits(double margin_m) {
 std::span<const std::size_t> CollisionWorld::Impl::find_candidates(std::size_t body,
                                                                    const Bounds& reach_ws) {
     if (visit_of_body[body] != Visit::changed) {
-        ++work.tree_queries;
         return broadphase.find(reach_ws, broadphase_scratch);
     }
     const std::size_t slot = slot_of_visit[body];
@@ -245,7 +243,6 @@ void CollisionWorld::Impl::cache_isolation(const BodyPairs& body, double margin_
     if (!contains(box_ws, a.bounds_ws.grown(margin_m))) {
         return;
     }
-    ++work.tree_queries;
     for (const std::size_t other : broadphase.find(box_ws, broadphase_scratch)) {
         if (other != body.body && may_enter(box_ws, a, bodies[other])) {
             broadphase.postpone_isolation(body.body);

@@ -56,16 +56,18 @@ struct Approach {
     int steps = 0;
 };
 enum class ApproachState : std::uint8_t { continues, touches, misses };
-// begin_approach takes cheap first steps. It returns nullopt only if a does not touch b before
-// the limit. advance moves to a later fraction, up to which a cannot touch
-// b. A caller with many shapes always advances the one with the smallest fraction.
+// begin_approach takes cheap first steps. It returns nullopt only if a does not touch b before the
+// limit, or if the touch may be left out (SweepLimit::grazing_m). advance moves to a later
+// fraction, up to which a cannot touch b; it reports `misses` on the same conditions. A caller with
+// many shapes always advances the one with the smallest fraction.
 std::optional<Approach> begin_approach(const ConvexPart& a, const RelativeMotion& motion,
                                        const Convex& b, const SweepLimit& limit);
 ApproachState advance(const ConvexPart& a, const RelativeMotion& motion, const Convex& b,
                       const SweepLimit& limit, Approach& approach);
 
 // First fraction of the motion at which part a comes within a micrometre of b; 0 if they touch at
-// the start. nullopt if there is no touch before `limit`.
+// the start. nullopt if there is no touch before the limit, or if the touch may be left out
+// (SweepLimit::grazing_m).
 std::optional<Impact> time_of_impact(const ConvexPart& a, const RelativeMotion& motion,
                                      const Convex& b, const SweepLimit& limit);
 

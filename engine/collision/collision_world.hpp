@@ -69,7 +69,7 @@ struct ContactLimits {
 // Work of a CollisionWorld, in deterministic units of cost.
 struct CollisionWork {
     std::uint64_t narrowphase_calls = 0;  // pairs whose contacts were computed, not recalled
-    std::uint64_t bounds_updates = 0;     // colliders whose place in the tree was updated
+    std::uint64_t bounds_updates = 0;     // proxies that were new or changed
     std::uint64_t tree_queries = 0;       // queries of the broadphase's tree by find_contacts
     // Pairs that find_contacts left out because one of the two bodies overlaps too many others
     // deeply. They are found once those bodies have separated.

@@ -24,9 +24,7 @@ void read_input(const FrameContext& f) {
 void prepare_solve(const FrameContext& f, Contacts contacts) {
     // Intent: grabs, pulls and locomotion of players.
     group_joints(f);
-    if (f.w.player_origin.size() > 0) {  // only players ask for colliders before the prediction
-        place_colliders(f, Stage::update_grabs);
-    }
+    place_colliders(f, Stage::update_grabs);
     pose_grippable_bodies(f, k_no_entity);
     update_grabs(f);
     locomote_players(f);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "components/player.hpp"
 #include "tools/lab/hand_paths.hpp"
@@ -162,9 +163,11 @@ void Measure::take(const FrameRecord& frame) {
     }
     grab_mm.add(1e3 * grab);
     penetration_mm.add(1e3 * penetration_m(scene_, holder_, frame.poses));
-    step_us.add(frame.step_us);
-    solve_us.add(frame.solve_us);
-    frame_us.add(frame.frame_us);
+    if (!std::exchange(is_first_, false)) {
+        step_us.add(frame.step_us);
+        solve_us.add(frame.solve_us);
+        frame_us.add(frame.frame_us);
+    }
     iterations.add(frame.iterations);
     take_players(frame);
     take_momentum(frame);

@@ -50,6 +50,7 @@ class Measure {
     Series grab_mm;
     Series player_mm;
     Series penetration_mm;
+    // Times leave out the first frame, which allocates and fills caches.
     Series step_us;
     Series solve_us;
     Series frame_us;
@@ -64,6 +65,7 @@ class Measure {
     const LabScene& scene_;
     Holder holder_;
     bool is_closed_ = false;
+    bool is_first_ = true;
     Momentum closed_;
 };
 

@@ -100,14 +100,18 @@ inline double now_us() {
 #endif
 }
 
-// Calls step(frame) for each frame and prints the times of these calls as one line of JSON.
+// Calls step(frame) for each frame and prints the times of these calls, without the first, as one
+// line of JSON. The first call allocates and fills caches.
 inline void time_frames(const Scene& scene, const std::string& engine,
                         const std::function<void(int)>& step) {
     std::vector<double> us;
     for (int frame = 0; frame < scene.frames; ++frame) {
         const double begin_us = now_us();
         step(frame);
-        us.push_back(now_us() - begin_us);
+        const double spent_us = now_us() - begin_us;
+        if (frame > 0 || scene.frames == 1) {
+            us.push_back(spent_us);
+        }
     }
     std::sort(us.begin(), us.end());
     const auto quantile = [&us](double share) {

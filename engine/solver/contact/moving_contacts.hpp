@@ -21,7 +21,7 @@ struct MovingContacts {
     std::vector<ColliderProxy>& proxies;
     std::vector<ContactPoint>& contacts;  // in/out; sorted by pair and feature
     ConstraintGraph& graph;               // out: contact blocks, islands
-    std::vector<ContactPoint>& scratch;   // scratch; afterwards the previous contacts
+    std::vector<ContactPoint>& scratch;   // scratch; afterwards the old contacts that were kept
     std::vector<ColliderProxy>& updates;  // scratch: proxies to send to the collision world
     // Bodies outside all islands that may also have moved. If there are any, contacts are searched
     // again in any case.

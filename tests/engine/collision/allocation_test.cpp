@@ -72,5 +72,45 @@ TEST(CollisionWorld, WarmWorldAllocatesNothing) {
     EXPECT_GT(most_contacts, 50U);
 }
 
+// Ids stay, but bodies drift: forty small boxes approach a large one until its list of neighbours
+// holds them all. None comes near enough for a contact.
+TEST(CollisionWorld, WarmWorldWithNewNeighboursAllocatesNothing) {
+    (void)collision_allocation_count();
+    ShapeLibrary shapes;
+    const ShapeId large = shapes.add_box(Vec3::Constant(0.5));
+    const ShapeId small = shapes.add_box(Vec3::Constant(0.02));
+    CollisionWorld world(shapes);
+    std::vector<ColliderProxy> proxies = {{1, large, {}, {}, true}};
+    std::vector<Vec3> ends = {Vec3::Zero()};
+    for (int i = 0; i < 40; ++i) {
+        ends.emplace_back(0.15 * (i % 7 - 3), 0.62, 0.15 * (i / 7 - 3));
+        proxies.push_back({proxies.size() + 1, small, {}, {}, true});
+    }
+    std::vector<ContactPoint> contacts;
+    const auto frame = [&](double height_m) {
+        for (std::size_t i = 0; i < proxies.size(); ++i) {
+            proxies[i].from_ws = proxies[i].to_ws;
+            proxies[i].to_ws = at(ends[i] + (i > 0 ? height_m : 0.0) * Vec3::UnitY());
+        }
+        world.update_proxies(proxies);
+        world.find_contacts({}, contacts);
+    };
+    for (std::size_t i = 0; i < proxies.size(); ++i) {
+        proxies[i].to_ws = at({static_cast<double>(i), 3.0, 0.0});
+        proxies[i].from_ws = proxies[i].to_ws;
+    }
+    world.set_proxies(proxies);
+    for (int i = 0; i < 20; ++i) {
+        frame(0.2 + 0.001 * (i % 2));
+    }
+    const std::size_t allocations = allocation_count();
+    const std::uint64_t library_allocations = collision_allocation_count();
+    for (int i = 0; i <= 100; ++i) {
+        frame(0.002 * (100 - i));
+    }
+    EXPECT_EQ(allocation_count() - allocations, 0U);
+    EXPECT_EQ(collision_allocation_count() - library_allocations, 0U);
+}
+
 }  // namespace
 }  // namespace handhold::collision_allocation_test

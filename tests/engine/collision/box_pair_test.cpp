@@ -118,8 +118,8 @@ TEST(BoxPairs, AgreeWithGjkAndEpaInRandomPoses) {
     EXPECT_GT(same_normal, k_rounds * 99 / 100);  // the others have two shortest exits
 }
 
-// A gap that the closest features leave is found whatever they are: the second box touches the
-// first with a face, an edge or a corner and is moved off along the normal.
+// A gap that the closest features leave is found whatever they are. The boxes are moved apart along
+// the normal of two corners, of two edges, or of a face of the second and a corner of the first.
 TEST(BoxPairs, GapIsThatOfTheClosestFeatures) {
     Random random(302);
     for (int round = 0; round < 4000; ++round) {
@@ -129,11 +129,17 @@ TEST(BoxPairs, GapIsThatOfTheClosestFeatures) {
         pair.pose_b = {random.vector(1.0), random.rotation()};
         const Quat turn = random.rotation();
         pair.pose_a = {pair.pose_b.position, pair.pose_b.rotation * turn};
-        // The boxes are moved apart along a direction that both see as the normal of a corner.
-        const Vec3 normal_bs = random.direction();
+        Vec3 normal_bs = random.direction();
+        const Vec3 axis_bs = Vec3::Unit(round / 3 % 3);
+        if (round % 3 == 1) {
+            normal_bs = axis_bs.cross(turn * Vec3::Unit(round / 9 % 3)).normalized();
+        } else if (round % 3 == 2) {
+            normal_bs = random.between(0.0, 1.0) < 0.5 ? Vec3(-axis_bs) : axis_bs;
+        }
         const Vec3 normal_ws = pair.pose_b.rotation * normal_bs;
         const auto corner_along = [](const Vec3& half, const Vec3& direction) {
-            return Vec3(direction.array().sign() * half.array());
+            const auto is_zero = direction.array().abs() < 1e-9;  // the middle of a face or an edge
+            return Vec3(is_zero.select(0.0, direction.array().sign() * half.array()));
         };
         const Vec3 corner_b = transform_point(pair.pose_b, corner_along(pair.half_b, normal_bs));
         const Vec3 corner_a =
@@ -174,6 +180,40 @@ TEST(BoxPairs, ParallelFacesHaveTheirGap) {
         ASSERT_NEAR(deepest_of(measured.as_boxes).separation_m, gap_m, 2e-9) << round;
         ASSERT_GE(measured.as_boxes.size(), 4U) << round;
         ASSERT_LE(measured.as_boxes.size(), 8U) << round;
+    }
+}
+
+// A long plate lies across a beam with a nanometre of overlap and turns about the beam. Its ends
+// move far, the part over the beam by less than the grazing tolerance (0.5 mm). Nothing stops it:
+// an impact would leave contacts beside the beam, under the plate's ends.
+TEST(BoxPairs, PlateThatTurnsOnABeamIsStoppedByNoPointBesideIt) {
+    Random random(305);
+    for (int round = 0; round < 2000; ++round) {
+        BoxPair pair;
+        pair.half_a = {random.between(1.0, 2.0), 0.05, 0.3};
+        pair.half_b = {random.between(0.03, 0.06), 0.1, 2.5};
+        pair.pose_b = {random.vector(1.0), random.rotation()};
+        // `under` of the plate lies on `top` of the beam.
+        const double end_m = 0.9 * pair.half_a.x();
+        const Vec3 under(random.between(-end_m, end_m), -pair.half_a.y(), 0.0);
+        const Vec3 top(0.0, pair.half_b.y() - 1e-9, random.between(-1.0, 1.0));
+        const double yaw_rad = round % 3 == 0 ? 0.0 : random.between(-0.5, 0.5);
+        const Quat yaw = rotation_about(Vec3::UnitY(), yaw_rad);
+        const Pose from_bs{top - yaw * under, yaw};
+        const double turn_rad = (round % 2 == 0 ? 4e-4 : -4e-4) / pair.half_b.x();
+        const Quat turn = rotation_about(Vec3::UnitZ(), turn_rad);
+        const Pose to_bs{top - turn * (yaw * under), turn * yaw};
+        ShapeLibrary shapes;
+        const ShapeId plate = shapes.add_box(pair.half_a);
+        const ShapeId beam = shapes.add_box(pair.half_b);
+        const std::vector<ContactPoint> contacts = test::contacts_of(
+            shapes, {resting(1, beam, pair.pose_b, false),
+                     {2, plate, pair.pose_b * from_bs, pair.pose_b * to_bs, true}});
+        ASSERT_FALSE(contacts.empty()) << round;
+        for (const ContactPoint& contact : contacts) {
+            ASSERT_LT((contact.point_b_bs.cwiseAbs() - pair.half_b).maxCoeff(), 1e-6) << round;
+            ASSERT_GT(contact.separation_m, -5e-4) << round;
+        }
     }
 }
 

@@ -48,6 +48,35 @@ TEST(Broadphase, TreeStaysShallowWhenManyCollidersLeaveAndReturn) {
     }
 }
 
+// A spawn outdates all lists of neighbours. Renewing them costs queries for free bodies alone.
+TEST(Broadphase, SpawnAmongManyFixedCollidersCostsFewQueries) {
+    Random random(11);
+    ShapeLibrary shapes;
+    shapes.add_sphere(0.1);
+    CollisionWorld world(shapes);
+    std::vector<ColliderProxy> proxies = scattered(2000, random);
+    for (ColliderProxy& proxy : proxies) {
+        proxy.free = false;
+    }
+    std::vector<ContactPoint> contacts;
+    for (std::uint64_t spawned = 1; spawned <= 20; ++spawned) {
+        ColliderProxy projectile = proxies.back();
+        projectile.id = proxies.back().id + 1;
+        projectile.to_ws = projectile.from_ws = random.pose(20.0);
+        projectile.free = true;
+        proxies.push_back(projectile);
+        world.set_proxies(proxies);
+        world.find_contacts({}, contacts);
+        (void)world.take_work();
+        proxies.back().to_ws.position.y() += 0.05;
+        world.update_proxies(std::span(proxies).last(1));
+        world.find_contacts({}, contacts);
+        const std::uint64_t queries = world.take_work().tree_queries;
+        EXPECT_GE(queries, spawned);  // one per free body
+        EXPECT_LE(queries, 3 * spawned + 3);
+    }
+}
+
 bool same_contact(const ContactPoint& x, const ContactPoint& y) {
     return x.id_a == y.id_a && x.id_b == y.id_b && x.feature == y.feature &&
            x.point_a_bs == y.point_a_bs && x.point_b_bs == y.point_b_bs &&

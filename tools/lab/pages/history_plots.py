@@ -9,12 +9,12 @@ WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 720, 300, 60, 20, 34, 66
 GREEN, BLUE, RED = "#0b8f64", "#3b7fd4", "#c8553d"
 UNITS_US = {"us": 1.0, "ms": 1e3}
 
-# file: (title, [(key, color, pattern of the scene, pattern of the metric)]). A row's point is its value; rows under load and variants are left out
-# by the patterns.
+# file: (title, [(key, color, pattern of the scene, pattern of the metric)]). A row's point is its value, also if the machine was
+# under load. Variants are left out by the patterns.
 PLOTS = {
-    "figures_chain.svg": ("Chain of 128 links: median of a solve, microseconds", [
-        ("Handhold", GREEN, r"((handhold-lab )?solve )?chain 128( kinematic)?( \((dense factor|loaded machine; least of 15 runs, hub 64 beside it 96)\))?",
-         r"us_per_s(tep|olve)_median")]),
+    "figures_chain.svg": ("Chain of 128 links: median of a whole frame, microseconds", [
+        ("Handhold", GREEN, r"bench_peers chain of 128 links: Handhold", r"us_per_frame_median"),
+        ("Bullet", BLUE, r"bench_peers chain of 128 links: Bullet", r"us_per_frame_median")]),
     "figures_heap.svg": ("Heaps: worst whole frame, milliseconds", [
         ("64 crates", GREEN, r"handhold-lab solve heap 64: worst frame(; machine under load)?|bench_peers heap of 64 crates: Handhold",
          r"max|us_per_frame_max"),
