@@ -59,17 +59,12 @@ void log_hash(const hh::Match& match, const Scene& scene, std::uint64_t& logged)
     }
 }
 
-// True once all players have left for good. Whoever was cut off may return for a while. The server
-// then ends, so that nobody else finds their score: the fleet starts another one.
-bool report_to_agones(const MatchServer& server, double return_s, std::optional<double>& played_s,
-                      AgonesReporter& agones) {
+// True once the match is over.
+bool report_to_agones(const MatchServer& server, FleetMatch& fleet, AgonesReporter& agones) {
     const double now_s = steady_s();
     agones.beat();
-    if (server.seats().taken() > 0) {
-        played_s = now_s;
-    }
-    agones.set(played_s ? AgonesReporter::State::allocated : AgonesReporter::State::ready);
-    return played_s && now_s - *played_s > return_s;
+    agones.set(fleet.update(server.seats(), now_s));
+    return fleet.is_over(now_s);
 }
 
 // Until the options' time is over or the program is interrupted; then until all peers know.
@@ -79,12 +74,12 @@ void serve(const ServeOptions& options, const Scene& scene, MatchServer& server)
     if (options.agones) {
         agones.emplace(agones_port(), print_log_line);
     }
-    std::optional<double> played_s;
+    FleetMatch fleet(options.return_s);
     std::uint64_t logged = 0;
     while (!is_interrupted() &&
            (options.seconds == 0.0 || steady_s() - begin_s < options.seconds)) {
         server.poll();
-        if (agones && report_to_agones(server, options.return_s, played_s, *agones)) {
+        if (agones && report_to_agones(server, fleet, *agones)) {
             break;
         }
         log_hash(server.match(), scene, logged);

@@ -84,6 +84,14 @@ int agones_port() {
     return port >= 1 && port <= 65535 ? port : k_default;
 }
 
+AgonesReporter::State FleetMatch::update(const MatchSeats& seats, double now_s) {
+    if (seats.is_played()) {
+        played_s_ = now_s;
+    }
+    return played_s_ || seats.taken() > 0 ? AgonesReporter::State::allocated
+                                          : AgonesReporter::State::ready;
+}
+
 AgonesReporter::AgonesReporter(int port, std::function<void(const std::string& line)> told)
     : port_(port), told_(std::move(told)), thread_([this] { run(); }) {}
 

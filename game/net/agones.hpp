@@ -4,8 +4,11 @@
 #include <cstdint>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
+
+#include "game/net/match_seats.hpp"
 
 namespace handhold {
 
@@ -38,6 +41,22 @@ class AgonesReporter {
     bool has_beat_ = false;
     bool ends_ = false;
     std::thread thread_;  // the last one: it uses the others
+};
+
+// What the fleet is told of a server that plays one match. The match begins with the first player
+// who has had its state, so whoever leaves before does not use the server up.
+class FleetMatch {
+  public:
+    // `return_s`: a seat waits so long for a person who was cut off.
+    explicit FleetMatch(double return_s) : return_s_(return_s) {}
+    AgonesReporter::State update(const MatchSeats& seats, double now_s);
+    // True once all players have left for good. The server then ends, so that nobody else finds
+    // their score: the fleet starts another one.
+    bool is_over(double now_s) const { return played_s_ && now_s - *played_s_ > return_s_; }
+
+  private:
+    double return_s_;
+    std::optional<double> played_s_;  // when somebody played last
 };
 
 // The port that Agones sets in AGONES_SDK_HTTP_PORT, or its default.

@@ -1,5 +1,7 @@
 #include "game/net/match_seats.hpp"
 
+#include <algorithm>
+
 namespace handhold {
 
 std::optional<std::size_t> MatchSeats::of_link(LinkId link) const {
@@ -44,6 +46,12 @@ std::size_t MatchSeats::taken_of(bool watches) const {
         count += seats_[at].stage != SeatStage::empty ? 1U : 0U;
     }
     return count;
+}
+
+bool MatchSeats::is_played() const {
+    return std::any_of(
+        seats_.begin(), seats_.begin() + static_cast<std::ptrdiff_t>(players_),
+        [](const MatchSeat& seat) { return seat.stage != SeatStage::empty && seat.has_played; });
 }
 
 std::size_t MatchSeats::taken() const { return taken_of(false); }

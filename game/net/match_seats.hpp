@@ -32,6 +32,7 @@ struct MatchSeat {
     // How long nothing has come of a player, or a state has taken. Pauses of the server do not
     // count.
     double waited_s = 0.0;
+    bool needs_state = false;             // joining: its turn has not come yet
     std::vector<std::byte> state;         // a join state on its way
     std::unique_ptr<StatePacker> packer;  // null: `state` is complete
     bool unpacks = false;                 // the peer takes packed states
@@ -62,7 +63,9 @@ class MatchSeats {
                                         double now_s) const;
     // True if that person plays, or their seat waits for them; `number` tells the person's machine.
     bool has(const std::string& person, std::uint64_t number, bool watches, double now_s) const;
-    std::size_t taken() const;     // players
+    std::size_t taken() const;  // players
+    // True while somebody is there, or back on the way, who has had the match's state.
+    bool is_played() const;
     std::size_t watching() const;  // spectators
 
   private:

@@ -7,9 +7,6 @@
 namespace handhold {
 namespace {
 
-// Join states are packed at this rate, all together: about 0.6 ms of the processor in a tick. After
-// a longer pause more at once, because a state must arrive in time.
-constexpr double k_packed_bytes_per_s = 16e6;
 // A longer time between two polls is the server's own pause.
 constexpr double k_longest_counted_s = 0.1;
 
@@ -97,7 +94,7 @@ void MatchServer::send_packets() {
         if (seats_.is_watching(slot)) {
             send_inputs(slot);
         } else if (match_.needs_state(static_cast<std::uint32_t>(slot)).value_or(false)) {
-            begin_state(slot);
+            ask_for_state(slot);
         } else if (match_.packet_to(static_cast<std::uint32_t>(slot), packet_)) {
             write_packet_message(packet_, message_);
             listener_.send(seat.link, Delivery::newest, message_);
@@ -112,11 +109,14 @@ void MatchServer::tend(double now_s) {
     metrics_left_ =
         std::min(metrics_left_ + elapsed_s * settings_.metrics.per_s, settings_.metrics.at_once);
     const double waited_s = std::min(elapsed_s, k_longest_counted_s);
-    auto to_pack_bytes = static_cast<std::size_t>(elapsed_s * k_packed_bytes_per_s);
+    auto to_pack_bytes = static_cast<std::size_t>(elapsed_s * settings_.packed_bytes_per_s);
     for (std::size_t slot = 0; slot < seats_.count(); ++slot) {
         MatchSeat& seat = seats_.at(slot);
         seat.waited_s += waited_s;
-        if (seat.stage == SeatStage::joining) {
+        if (seat.needs_state && !is_packing()) {
+            begin_state(slot);
+        }
+        if (seat.stage == SeatStage::joining && !seat.needs_state) {
             pack_state_of(seat, to_pack_bytes);
             send_state(seat, elapsed_s);
             const double to_send_s = static_cast<double>(seat.state.size()) / state_rate(seat);
@@ -147,7 +147,7 @@ void MatchServer::send_inputs(std::size_t place) {
            listener_.queued_bytes(seat.link) < k_most_inputs_queued) {
         const std::uint64_t before = seat.watched_until;
         if (!match_.confirmed_inputs(seat.watched_until, packet_) || seat.watched_until == before) {
-            begin_state(place);  // The inputs are forgotten: the state took too long.
+            ask_for_state(place);  // The inputs are forgotten: the state took too long.
             return;
         }
         write_inputs_message(packet_, message_);
@@ -188,6 +188,7 @@ void MatchServer::empty_seat(std::size_t slot, double reserved_s) {
     }
     seat.stage = SeatStage::empty;
     seat.link = 0;
+    seat.needs_state = false;
     seat.state = {};
     seat.packer.reset();
     seat.reserved_until_s = settings_.clock() + reserved_s;

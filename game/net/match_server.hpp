@@ -29,7 +29,10 @@ struct MatchServerSettings {
     double return_s = 60.0;            // a seat waits so long for a person who was cut off
     double state_bytes_per_s = 500e3;  // most to one peer
     double state_within_s = 2.5;       // large states are sent faster, to arrive in that time
-    std::size_t spectators = 8;        // places for them
+    // States are packed at this rate, one after the other: about 0.6 ms of the processor in a tick.
+    // After a longer pause more at once, because a state must arrive in time.
+    double packed_bytes_per_s = 16e6;
+    std::size_t spectators = 8;  // places for them
     JoinRate joins{4.0, 32.0};
     JoinRate joins_of_address{2.0, 16.0};  // limit of an address, without tokens
     JoinRate joins_of_person{0.5, 4.0};    // limit of a person, with tokens
@@ -93,6 +96,8 @@ class MatchServer final : public ListenerHandler {
     std::optional<MatchRefused> check_hello(const MatchHello& hello, std::string& person) const;
     void refuse_link(LinkId link, const MatchRefused& refused);
     void seat(LinkId link, std::size_t slot, const std::string& person, const MatchHello& hello);
+    void ask_for_state(std::size_t slot);
+    bool is_packing() const;
     void begin_state(std::size_t slot);
     double state_rate(const MatchSeat& seat) const;
     void pack_state_of(MatchSeat& seat, std::size_t& left_bytes);

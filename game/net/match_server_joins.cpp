@@ -106,7 +106,26 @@ void MatchServer::seat(LinkId link, std::size_t slot, const std::string& person,
                   {"person", settings_.key ? person : "anonymous"},
                   {"returns", returns ? "1" : "0"},
                   {"tick", std::to_string(match_.stats().tick)}});
-    begin_state(slot);
+    ask_for_state(slot);
+}
+
+// The inputs after a state are kept for five seconds from its begin. One state is packed at a time,
+// so that no time passes while it waits for others: the largest then takes two seconds, and
+// state_within_s to be sent.
+void MatchServer::ask_for_state(std::size_t slot) {
+    MatchSeat& seat = seats_.at(slot);
+    seat.stage = SeatStage::joining;
+    seat.needs_state = true;
+    seat.packer.reset();
+}
+
+bool MatchServer::is_packing() const {
+    for (std::size_t slot = 0; slot < seats_.count(); ++slot) {
+        if (seats_.at(slot).packer != nullptr) {
+            return true;
+        }
+    }
+    return false;
 }
 
 void MatchServer::begin_state(std::size_t slot) {
@@ -119,7 +138,7 @@ void MatchServer::begin_state(std::size_t slot) {
         write_arena_state(arena_->state(), seat.state);
     }
     seat.watched_until = match_.stats().tick;
-    seat.stage = SeatStage::joining;
+    seat.needs_state = false;
     seat.waited_s = 0.0;
     seat.state_sent = 0;
     seat.state_credit_bytes = static_cast<double>(StatePiece::k_most_bytes);
@@ -182,7 +201,7 @@ void MatchServer::take_joined(LinkId link, std::span<const std::byte> message) {
         return;
     }
     MatchSeat& seat = seats_.at(*slot);
-    if (seat.stage != SeatStage::joining || *number != seat.state_number ||
+    if (seat.stage != SeatStage::joining || seat.needs_state || *number != seat.state_number ||
         seat.packer != nullptr || seat.state_sent < seat.state.size()) {
         return;
     }

@@ -21,10 +21,9 @@ void check_zstd(std::size_t result) {
 class ZstdPacker final : public StatePacker {
   public:
     explicit ZstdPacker(std::vector<std::byte> state)
-        : state_(std::move(state)),
-          packed_(ZSTD_compressBound(state_.size())),
-          context_(ZSTD_createCCtx(), ZSTD_freeCCtx) {
+        : state_(std::move(state)), context_(ZSTD_createCCtx(), ZSTD_freeCCtx) {
         constexpr int k_level = 3;
+        packed_.reserve(ZSTD_compressBound(state_.size()));
         if (context_ == nullptr) {
             throw std::bad_alloc();
         }
@@ -35,10 +34,13 @@ class ZstdPacker final : public StatePacker {
 
     std::size_t advance(std::size_t bytes) override {
         const std::size_t before = read_;
+        // Room for the part and for what zstd has kept of those before. Grows by parts, because all
+        // of the memory at once would take a tick's time to clear.
+        const std::size_t room = ZSTD_compressBound(bytes) + ZSTD_CStreamOutSize();
+        packed_.resize(std::min(packed_.capacity(), written_ + room));
         ZSTD_inBuffer in = {state_.data(), std::min(state_.size(), read_ + bytes), read_};
         ZSTD_outBuffer out = {packed_.data(), packed_.size(), written_};
         const bool is_last = in.size == state_.size();
-        // There is room for the whole result, so one call takes all of the part.
         const std::size_t left =
             ZSTD_compressStream2(context_.get(), &out, &in, is_last ? ZSTD_e_end : ZSTD_e_continue);
         check_zstd(left);

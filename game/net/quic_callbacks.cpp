@@ -153,6 +153,15 @@ struct QuicCallbacks {
         }
         return 0;
     }
+    static int path_validated(ngtcp2_conn* /*connection*/, std::uint32_t /*flags*/,
+                              const ngtcp2_path* path, ngtcp2_path_validation_result result,
+                              void* user_data) {
+        if (result == NGTCP2_PATH_VALIDATION_RESULT_SUCCESS) {
+            of(user_data).proven_peer_.address =
+                *reinterpret_cast<const sockaddr_in*>(path->remote.addr);
+        }
+        return 0;
+    }
     static void offer_token(ngtcp2_conn* connection, const QuicConnection& self) {
         std::array<std::uint8_t, NGTCP2_CRYPTO_MAX_REGULAR_TOKENLEN> token{};
         const QuicSecret& secret = *self.settings_.secret;
@@ -196,6 +205,7 @@ ngtcp2_callbacks quic_callbacks(bool is_server) {
     out.get_path_challenge_data = ngtcp2_crypto_get_path_challenge_data_cb;
     out.version_negotiation = ngtcp2_crypto_version_negotiation_cb;
     out.handshake_completed = &QuicCallbacks::opened;
+    out.path_validation = &QuicCallbacks::path_validated;
     out.rand = &QuicCallbacks::random;
     out.get_new_connection_id = &QuicCallbacks::new_id;
     out.remove_connection_id = &QuicCallbacks::drop_id;

@@ -27,7 +27,9 @@ ngtcp2_settings make_settings(const QuicConnectionSettings& settings,
     out.initial_ts = quic_now();
     out.initial_rtt = 100 * NGTCP2_MILLISECONDS;  // a lost first packet is repeated after 0.3 s
     out.max_tx_udp_payload_size = k_datagram_bytes;
-    out.no_pmtud = 1;
+    // No probe is within the size above, so none is sent. With no_pmtud ngtcp2 0.12.1 fails an
+    // assertion if a packet's copy comes from elsewhere before the packet itself.
+    out.no_pmtud = 0;
     out.ack_thresh = 10;  // acknowledgements ride on the packet of the next tick
     out.handshake_timeout =
         static_cast<ngtcp2_duration>(settings.connect_within_s * NGTCP2_SECONDS);
@@ -88,6 +90,7 @@ std::unique_ptr<QuicConnection> QuicConnection::accept(const TlsCredentials& cre
     }
     out->own_ = arrival.own;
     out->peer_ = arrival.peer;
+    out->proven_peer_ = arrival.peer;  // a connection does not move before it is open
     out->has_valid_address_ = arrival.has_token;
     const ngtcp2_pkt_hd& header = arrival.header;
     const ngtcp2_cid id = random_id(k_connection_id_bytes);
@@ -129,6 +132,7 @@ std::unique_ptr<QuicConnection> QuicConnection::connect(const TlsCredentials& cr
     }
     out->own_ = own;
     out->peer_ = server;
+    out->proven_peer_ = server;
     out->has_valid_address_ = true;
     const ngtcp2_cid to = random_id(NGTCP2_MIN_INITIAL_DCIDLEN);
     const ngtcp2_cid from = random_id(0);

@@ -99,6 +99,9 @@ class QuicConnection {
     QuicEnd end() const { return end_; }
     const std::string& why() const { return why_; }  // one line; empty: not ended
     UdpPlace peer() const;                           // where packets are sent
+    // The last address at which the other side has answered. Whoever sends a copy of its packet
+    // from elsewhere, before the packet itself comes, changes `peer` but not this.
+    const UdpPlace& proven_peer() const { return proven_peer_; }
     std::size_t queued_bytes() const { return newest_bytes_ + stream_.unsent_bytes(); }
     bool is_all_delivered() const { return newest_.empty() && stream_.is_all_acknowledged(); }
     // Grows with each acknowledgement of the other side: bytes of the stream, and datagrams.
@@ -138,6 +141,7 @@ class QuicConnection {
     TlsSession tls_;
     UdpPlace own_;
     UdpPlace peer_;
+    UdpPlace proven_peer_;
     std::deque<std::vector<std::uint8_t>> newest_;
     std::size_t newest_bytes_ = 0;
     StreamWriter stream_;

@@ -31,7 +31,7 @@ double quic_now_s() { return static_cast<double>(quic_now()) / NGTCP2_SECONDS; }
 struct QuicPeer {
     std::unique_ptr<QuicConnection> connection;
     ReceiveBudget budget;  // bytes and messages that are certainly the peer's
-    // With the peer's address. Beyond it the peer loses datagrams too.
+    // With the peer's proven address. Beyond it the peer loses datagrams too.
     ForgedGate forged_here;
     // With another address. Beyond it only such datagrams are lost, so the peer cannot move.
     ForgedGate forged_elsewhere;
@@ -238,7 +238,7 @@ class QuicListener final : public DatagramListener {
     void read(LinkId link, const UdpPlace& from, std::span<const std::uint8_t> bytes,
               ListenerHandler& handler) {
         QuicPeer& peer = links_.at(link);
-        const bool is_from_peer = from == peer.connection->peer();
+        const bool is_from_peer = from == peer.connection->proven_peer();
         if (peer.is_ended || !may_read(peer, is_from_peer)) {
             return;
         }

@@ -50,6 +50,42 @@ void note_points(const MatchWorld& match, PointsOfAll& out) {
     }
 }
 
+// A correction that turns a body moves the points where hands hold it by different amounts.
+void ShownOffsets::share_held_offsets(const MatchWorld& match) {
+    const World& world = match.world;
+    const auto find_slot = [&](Entity player) {
+        std::size_t slot = 0;
+        while (slot < match.player_count && find_by_id(world, match.players[slot]) != player) {
+            ++slot;
+        }
+        return slot;
+    };
+    for (std::size_t hand = 0; hand < world.grab.size(); ++hand) {
+        const Grab& grab = world.grab.elements()[hand];
+        if (grab.kind != GripKind::held) {
+            continue;
+        }
+        std::size_t first = 0;
+        while (world.grab.elements()[first].kind != GripKind::held ||
+               world.grab.elements()[first].body != grab.body) {
+            ++first;
+        }
+        if (first == hand) {
+            continue;
+        }
+        const HandOwner& owner = world.hand_owner.at(world.grab.owners()[hand]);
+        const HandOwner& leader = world.hand_owner.at(world.grab.owners()[first]);
+        const std::size_t slot = find_slot(owner.player);
+        const std::size_t leading = find_slot(leader.player);
+        if (slot < match.player_count && leading < match.player_count) {
+            for (PointsOfAll* const points : {&offsets_, &rates_}) {
+                (*points)[slot].hands[index_of(owner.side)] =
+                    (*points)[leading].hands[index_of(leader.side)];
+            }
+        }
+    }
+}
+
 void ShownOffsets::end_correction(const MatchWorld& match) {
     note_points(match, after_);
     for (std::size_t slot = 0; slot < match.player_count; ++slot) {
@@ -59,6 +95,7 @@ void ShownOffsets::end_correction(const MatchWorld& match) {
                            offsets_[slot].hands[side]);
         }
     }
+    share_held_offsets(match);
 }
 
 void ShownOffsets::advance(double dt_s) {

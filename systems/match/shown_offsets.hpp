@@ -23,6 +23,9 @@ void note_points(const MatchWorld& match, PointsOfAll& out);
 // less and less: critically damped, so that drawn velocities do not jump either. State for the eye
 // only; it is never part of the world.
 //
+// All hands that hold one loose body have the offset of the first of them, in the order of
+// World::grab, from the next correction on: add it to the body too.
+//
 // A player's own head moves by a correction when somebody else pulls at what they hold: that offset
 // is for the own view too, with all that it shows of the player.
 class ShownOffsets {
@@ -43,6 +46,8 @@ class ShownOffsets {
     const PointsOfAll& offsets() const { return offsets_; }
 
   private:
+    void share_held_offsets(const MatchWorld& match);
+
     PointsOfAll before_;
     PointsOfAll after_;
     PointsOfAll offsets_;

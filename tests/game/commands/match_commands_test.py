@@ -143,7 +143,9 @@ class Matches(unittest.TestCase):
         (self.folder / "shots.json").write_text(json.dumps({"shots": [{"name": "seen", "scene": "reach", "at_s": 0.5, "view": "behind"}]}))
         drawn = subprocess.run([str(GAME), *"run --match server.hhm --shots shots.json --out drawn --shot-width 64 --shot-height 36".split()],
                                capture_output=True, timeout=WITHIN_S, check=False, cwd=self.folder)
-        if b"no pictures" not in drawn.stderr:
+        with self.subTest("pictures"):
+            if b"no pictures" in drawn.stderr:
+                self.skipTest("no way to draw here")
             self.assertEqual(drawn.returncode, 0, drawn.stderr.decode())
             self.assertTrue((self.folder / "drawn/seen.png").is_file())
         whole = (self.folder / "server.hhm").read_bytes()

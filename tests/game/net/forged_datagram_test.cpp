@@ -129,6 +129,48 @@ TEST_F(ForgedDatagramTest, AFloodInAPeersNameFromAnotherAddressLosesNoneOfThePee
     RecordProperty("overflowed", static_cast<int>(counts.overflowed_datagrams));
 }
 
+// Until the peer's next packet comes first, the server answers whoever sent a copy before it. What
+// else comes from there is not charged to the peer.
+TEST_F(ForgedDatagramTest, AFloodFromWhereCopiesComeFirstLosesNoneOfThePeers) {
+    LoopbackMatch match(2, {}, [](ListenerSettings& settings) {
+        settings.budget = {.messages_per_s = 4000.0, .bytes_per_s = 300e3, .burst_s = 0.04};
+    });
+    UdpProxy proxy(match.listener().port());
+    RawUdp mallory;
+    LoopbackPeer& seen = add_peer(match, 1, proxy.url(match.quic_url()));
+    match.others = [&proxy] { proxy.poll(); };
+    ASSERT_TRUE(match.run_until(20.0, [&] { return match.all_play(); }));
+    int rounds = 0;
+    std::vector<std::uint8_t> forged;
+    proxy.seen_before = [&](const std::vector<std::uint8_t>& bytes) {
+        forged = bytes;
+        if (rounds % 8 < 4) {
+            mallory.send(match.listener().port(), bytes);
+        }
+    };
+    std::uint64_t diverted = 0;
+    match.others = [&] {
+        proxy.poll();
+        forged.resize(1200);
+        // Bursts with pauses, so that copies are read in between.
+        for (int i = 0; i < (rounds % 8 == 5 ? 240 : 0); ++i) {
+            mallory.send(match.listener().port(), forged);
+        }
+        ++rounds;
+        std::vector<std::uint8_t> bytes;
+        for (int from = 0; mallory.receive(bytes, from);) {
+            ++diverted;
+        }
+    };
+    EXPECT_TRUE(match.run_until(
+        60.0, [&] { return diverted > 20 && match.listener().counts().unread_elsewhere > 300; }));
+    EXPECT_TRUE(seen.plays());
+    EXPECT_EQ(seen.different, 0U);
+    EXPECT_EQ(match.listener().counts().unread_datagrams, 0U);
+    EXPECT_EQ(match.listener().counts().throttled, 0U);
+    RecordProperty("diverted", static_cast<int>(diverted));
+}
+
 // 40 copies are five times what the peer itself may send.
 INSTANTIATE_TEST_SUITE_P(
     Kinds, MischiefTest,

@@ -90,6 +90,60 @@ TEST_F(PackStateTest, ASmallPieceThatClaimsMuchTakesNoMemory) {
     EXPECT_FALSE(unpack_state(bomb, StatePiece::k_most_total).has_value());
 }
 
+// The time that a state's inputs are kept begins when the state is made, so no state waits for
+// others to be packed. The clock is the test's.
+TEST_F(PackStateTest, StatesArePackedOneAfterTheOther) {
+    if (!has_network()) {
+        GTEST_SKIP() << "built without a network";
+    }
+    constexpr std::size_t k_peers = 3;
+    constexpr double k_tick_s = 1.0 / 90.0;
+    constexpr double k_bytes_per_s = 200e3;
+    double now_s = 0.0;
+    test::LoopbackMatch match(
+        k_peers,
+        [&](MatchServerSettings& settings) {
+            settings.clock = [&now_s] { return now_s; };
+            settings.packed_bytes_per_s = k_bytes_per_s;
+        },
+        [](ListenerSettings& settings) {  // its budget follows the wall's clock
+            settings.budget.messages_per_s *= 1000.0;
+            settings.budget.bytes_per_s *= 1000.0;
+        });
+    for (std::size_t i = 0; i < k_peers; ++i) {
+        match.peers.push_back(std::make_unique<test::LoopbackPeer>(k_peers, i + 1));
+        match.peers.back()->settings.clock = [&now_s] { return now_s; };
+        match.peers.back()->connect(match.link());
+    }
+    const MatchServerCounts& counts = match.server->counts();
+    const auto poll = [&match] {
+        match.server->poll();
+        std::ranges::for_each(match.peers, [](const auto& peer) { peer->poll(); });
+    };
+    for (int i = 0; i < 10'000 && counts.joins < k_peers; ++i) {
+        poll();
+    }
+    ASSERT_EQ(counts.joins, k_peers);
+    EXPECT_EQ(counts.states, 1U);
+    double longest_s = 0.0;
+    for (int i = 0; i < 1000 && !match.all_play(); ++i) {
+        now_s += k_tick_s;
+        poll();
+        std::size_t packing = 0;
+        for (std::size_t slot = 0; slot < k_peers; ++slot) {
+            const MatchSeat& seat = match.server->seats().at(slot);
+            packing += seat.packer != nullptr ? 1U : 0U;
+            longest_s = std::max(longest_s, seat.packer != nullptr ? seat.waited_s : 0.0);
+        }
+        EXPECT_LE(packing, 1U);
+    }
+    EXPECT_TRUE(match.all_play());
+    EXPECT_EQ(counts.states, k_peers);
+    EXPECT_GT(longest_s, 0.1);
+    const double state_bytes = static_cast<double>(counts.state_bytes) / k_peers;
+    EXPECT_LE(longest_s, state_bytes / k_bytes_per_s + 2.0 * k_tick_s);
+}
+
 TEST_F(PackStateTest, PeersWithAndWithoutItPlayOneMatch) {
     if (!has_network()) {
         GTEST_SKIP() << "built without a network";

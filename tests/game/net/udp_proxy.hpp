@@ -85,6 +85,9 @@ class UdpProxy {
         while (down_.receive(bytes, from)) {
             peer_port_ = from;
             bytes_up += bytes.size();
+            if (seen_before) {
+                seen_before(bytes);
+            }
             if (passes(passed_up)) {
                 up_->send(server_port_, bytes);
             }
@@ -118,6 +121,8 @@ class UdpProxy {
     double loss = 0.0;
     double down_bytes_per_s = k_wide;  // to the peer; what waits for it is in a queue
     bool is_deaf = false;              // nothing comes back to the peer
+    // Called before, and after, a datagram of the peer's is passed on.
+    std::function<void(const std::vector<std::uint8_t>&)> seen_before;
     std::function<void(const std::vector<std::uint8_t>&)> seen_up;
     std::uint64_t passed_up = 0;
     std::uint64_t passed_down = 0;

@@ -55,6 +55,43 @@ TEST(ShownOffsets, ACorrectionIsShownButForATwentiethAfterItsTime) {
     EXPECT_GT(last_m, 0.01 * shift_ws.norm());
 }
 
+// Two persons, the first with both hands, hold one bar, which the correction moves and turns.
+TEST(ShownOffsets, HandsOnOneBodyHaveOneOffset) {
+    MatchScene scene;
+    const Entity bar = find_by_id(scene.world, persistent_id_from_name("bar"));
+    std::size_t holding = 0;
+    for (std::size_t i = 0; i < scene.world.hand_owner.size(); ++i) {
+        const HandOwner& owner = scene.world.hand_owner.elements()[i];
+        const bool is_second = owner.player == find_by_id(scene.world, scene.match().players[1]);
+        if (is_second ? owner.side == HandSide::right
+                      : owner.player == find_by_id(scene.world, scene.match().players[0])) {
+            Grab& grab = scene.world.grab.at(scene.world.hand_owner.owners()[i]);
+            grab.kind = GripKind::held;
+            grab.body = bar;
+            grab.anchor_bs.position = Vec3(0.0, 0.0, 0.2 * static_cast<double>(holding));
+            ++holding;
+        }
+    }
+    ASSERT_EQ(holding, 3U);
+    ShownOffsets shown;
+    for (int correction = 0; correction < 2; ++correction) {
+        shown.begin_correction(scene.match());
+        Pose& pose_ws = scene.world.body_pose.at(bar).pose_ws;
+        pose_ws.position += Vec3(0.02, 0.0, 0.01);
+        pose_ws.rotation = rotation_about(Vec3::UnitY(), 0.3) * pose_ws.rotation;
+        shown.end_correction(scene.match());
+        for (int tick = 0; tick < 3; ++tick) {
+            const PointsOfAll& offsets = shown.offsets();
+            const Vec3 first = offsets[0].hands[index_of(HandSide::left)];
+            EXPECT_GT(first.norm(), 1e-3);
+            EXPECT_EQ(offsets[0].hands[index_of(HandSide::right)], first);
+            EXPECT_EQ(offsets[1].hands[index_of(HandSide::right)], first);
+            EXPECT_EQ(offsets[1].hands[index_of(HandSide::left)], Vec3::Zero());
+            shown.advance(k_tick_s);
+        }
+    }
+}
+
 TEST(ShownOffsets, TeleportsAreShownAtOnce) {
     MatchScene scene;
     ShownOffsets shown;
