@@ -53,8 +53,8 @@ bool are_hands_too_strong(const SolveVelocitiesIo& io, const Island& island,
     if (!limits) {
         return false;
     }
-    const auto& [reference, max_mps] = *limits;
-    double least = max_mps * max_mps;  // square of the speed that is too fast
+    const Vec3 reference = limits->reference_mps;
+    double least = limits->max_mps * limits->max_mps;  // square of the speed that is too fast
     bool knows_driven = false;
     const auto is_too_fast = [&](std::uint32_t index) {
         const SolverBody& body = frame.graph.bodies[index];
