@@ -239,15 +239,15 @@ std::span<const std::size_t> Broadphase::find(const Bounds& box, BroadphaseScrat
     return scratch.found;
 }
 
-void Broadphase::add_neighbour(std::size_t body, std::size_t other, double margin_m) {
-    std::vector<std::size_t>& list = neighbours_[body];
-    const auto place = std::ranges::lower_bound(list, other);
-    if (place != list.end() && *place == other) {
+void Broadphase::add_neighbour(std::size_t owner, std::size_t listed, double margin_m) {
+    std::vector<std::size_t>& list = neighbours_[owner];
+    const auto place = std::ranges::lower_bound(list, listed);
+    if (place != list.end() && *place == listed) {
         return;
     }
-    list.insert(place, other);
+    list.insert(place, listed);
     if (list.size() % k_many_neighbours == 0) {
-        const Bounds near_ws = bodies_[body].leaf_ws.grown(margin_m);
+        const Bounds near_ws = bodies_[owner].leaf_ws.grown(margin_m);
         std::erase_if(list, [this, &near_ws](std::size_t index) {
             return !overlaps(bodies_[index].leaf_ws, near_ws);
         });

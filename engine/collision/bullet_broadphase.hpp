@@ -90,7 +90,7 @@ class Broadphase {
     void note_moved_leaf(const BroadphaseBody& body);
     std::span<const std::size_t> find_leaves(const Bounds& box, BroadphaseScratch& scratch) const;
     void update_neighbours(double margin_m, BroadphaseScratch& scratch);
-    void add_neighbour(std::size_t body, std::size_t other, double margin_m);
+    void add_neighbour(std::size_t owner, std::size_t listed, double margin_m);
 
     std::vector<BroadphaseBody> bodies_;
     std::vector<std::uint64_t> ids_;           // ids of bodies_, close together for find_index

@@ -27,7 +27,8 @@ Double2 load2(const double* from) {
 }
 
 Double2 dot2(const std::array<double, 6>& x, const Twist& y) {
-    return load2(&x[0]) * load2(&y[0]) + load2(&x[2]) * load2(&y[2]) + load2(&x[4]) * load2(&y[4]);
+    return load2(x.data()) * load2(y.data()) + load2(&x[2]) * load2(&y[2]) +
+           load2(&x[4]) * load2(&y[4]);
 }
 double dot(const std::array<double, 6>& x, const Twist& y) {
     const Double2 sum = dot2(x, y);

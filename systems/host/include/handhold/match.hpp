@@ -195,11 +195,12 @@ class Match {
     Maybe<std::uint64_t> hash(std::uint64_t tick) const {
         return value<std::uint64_t>([&](auto* out) { return hh_match_hash(match_, tick, out); });
     }
-    // What to add to drawn positions: hh_match_shown_offsets. Indexed by hh_side: hands.
+    // What to add to drawn positions, world, m.
     struct ShownOffsets {
-        hh_vec3 head{};
-        std::array<hh_vec3, 2> hands{};
+        hh_vec3 head{};                  // of the head
+        std::array<hh_vec3, 2> hands{};  // indexed by hh_side
     };
+    // See hh_match_shown_offsets.
     Maybe<ShownOffsets> shown_offsets(std::uint32_t slot) const {
         return value<ShownOffsets>([&](auto* out) {
             return hh_match_shown_offsets(match_, slot, &out->head, &out->hands[HH_LEFT],
