@@ -197,7 +197,7 @@ class Match {
     }
     // What to add to drawn positions, world, m.
     struct ShownOffsets {
-        hh_vec3 head{};                  // of the head
+        hh_vec3 head{};                  // offset of the head
         std::array<hh_vec3, 2> hands{};  // indexed by hh_side
     };
     // See hh_match_shown_offsets.
