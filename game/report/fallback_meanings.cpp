@@ -31,7 +31,7 @@ constexpr EnumTexts<Fallback> k_meanings = {{
      "A hand was open when its tracking returned; it released without a throw."},
     {Fallback::grip_body_gone, "The gripped body was destroyed; the hand let go."},
     {Fallback::grip_reanchored,
-     "Tracking returned, or the other hand released: the grip took a new anchor at the hand."},
+     "Tracking returned, or the other hand let go: the grip took a new anchor at the hand."},
     {Fallback::two_hand_grip_ended, "One of two hands let go; nothing was thrown."},
     {Fallback::hands_too_close,
      "Two hands on one body were too close to turn it; only the first one moved it."},
@@ -69,7 +69,8 @@ constexpr EnumTexts<Fallback> k_meanings = {{
      "A pair of deeply overlapping bodies waited until other pairs had come apart."},
     {Fallback::release_speed_clamped, "A release was faster than allowed; its speed was limited."},
     {Fallback::object_speed_clamped,
-     "A body moved by hands, or spinning, was faster than allowed; its speed was limited."},
+     "A body moved by hands, or spinning, was faster than allowed; its speed was limited, or its "
+     "hands did not act on velocities in that frame."},
     {Fallback::head_ignores_full,
      "The head passed through more bodies than it remembers; the oldest was forgotten."},
     {Fallback::finger_full_search,

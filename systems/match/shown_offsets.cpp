@@ -6,7 +6,7 @@ namespace {
 // A critically damped offset x from rest is x0 (1 + w t) exp(-w t): a twentieth at w t = 4.74.
 constexpr double k_rate_per_s = 4.74 / ShownOffsets::k_shown_correction_s;
 
-// One step of x'' = -2 w x' - w^2 x, exact but for exp, of which the series is taken.
+// One step of x'' = -2 w x' - w^2 x in closed form. A truncated series replaces exp(-w t).
 void settle(double dt_s, Vec3& offset, Vec3& rate) {
     const double x = k_rate_per_s * dt_s;
     const double decay = 1.0 / (1.0 + x + x * x / 2.0 + x * x * x / 6.0);

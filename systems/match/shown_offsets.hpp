@@ -19,9 +19,9 @@ using PointsOfAll = std::array<PlayerPoints, k_most_match_players>;  // indexed 
 void note_points(const MatchWorld& match, PointsOfAll& out);
 
 // What a client adds to drawn positions, so that a correction of wrong guesses moves them within
-// k_shown_correction_s instead of at once: the positions before the correction less those after it,
-// less and less: critically damped, so that drawn velocities do not jump either. State for the eye
-// only; it is never part of the world.
+// k_shown_correction_s instead of at once. An offset begins as the position before the correction
+// minus that after it. It decays critically damped, so that drawn velocities do not jump either.
+// Offsets are only drawn; they are never part of the world.
 //
 // All hands that hold one loose body have the offset of the first of them, in the order of
 // World::grab, from the next correction on: add it to the body too.
@@ -30,7 +30,7 @@ void note_points(const MatchWorld& match, PointsOfAll& out);
 // is for the own view too, with all that it shows of the player.
 class ShownOffsets {
   public:
-    // Time after which a correction is shown but for a twentieth, s.
+    // Time in which nineteen twentieths of a correction are shown, s.
     static constexpr double k_shown_correction_s = 0.12;
     // A larger correction is no wrong guess but a teleport, and is shown at once.
     static constexpr double k_most_m = 0.5;
