@@ -15,8 +15,10 @@ inline void add_serve_options(CLI::App& serve, ServeOptions& options) {
         .add_option("--port", options.port,
                     "Of TCP (WebSocket) and UDP (QUIC); 0: any that is free, which the log says")
         ->check(CLI::Range(0, 65535));
-    serve.add_option("--address", options.address,
-                     "Of the interface; default: 127.0.0.1, this machine only; 0.0.0.0: all");
+    serve.add_option(
+        "--address", options.address,
+        "Of the interface; default: 127.0.0.1, this machine only; 0.0.0.0: all, by IPv4; "
+        "::, all, by IPv6 and IPv4");
     CLI::Option* const certificate =
         serve.add_option("--cert", options.certificate,
                          "A file with a certificate in PEM, for QUIC; default: one is made, which "

@@ -5,6 +5,9 @@
 
 #include <ngtcp2/ngtcp2_crypto.h>
 
+
+#include "game/net/host_port.hpp"
+
 namespace handhold {
 namespace {
 
@@ -93,7 +96,7 @@ std::optional<QuicArrival> QuicArrivals::admit(const UdpPlace& from,
     }
     const bool has_room = begun_ < k_most_begun;
     if (arrival.has_token) {
-        if (!has_room || !of_addresses_.take(from.text())) {
+        if (!has_room || !of_addresses_.take(counted_address(from.text()))) {
             return std::nullopt;
         }
     } else if (!has_room || half_open >= k_most_half_open || !of_strangers_.take("")) {
@@ -112,15 +115,15 @@ bool QuicArrivals::check_token(QuicArrival& arrival) const {
     }
     if (token.base[0] != NGTCP2_CRYPTO_TOKEN_MAGIC_RETRY) {
         arrival.has_token =
-            ngtcp2_crypto_verify_regular_token(token.base, token.len, secret_.data(),
-                                               secret_.size(), arrival.peer.data(),
-                                               UdpPlace::size(), k_token_within, quic_now()) == 0;
+            ngtcp2_crypto_verify_regular_token(
+                token.base, token.len, secret_.data(), secret_.size(), arrival.peer.data(),
+                arrival.peer.size(), k_token_within, quic_now()) == 0;
         return true;
     }
     arrival.has_token =
         ngtcp2_crypto_verify_retry_token(&arrival.before_retry, token.base, token.len,
                                          secret_.data(), secret_.size(), arrival.header.version,
-                                         arrival.peer.data(), UdpPlace::size(),
+                                         arrival.peer.data(), arrival.peer.size(),
                                          &arrival.header.dcid, k_retry_within, quic_now()) == 0;
     arrival.is_after_retry = arrival.has_token;
     return arrival.has_token;
@@ -139,7 +142,7 @@ void QuicArrivals::send_retry(const QuicArrival& arrival) {
     std::array<std::uint8_t, NGTCP2_CRYPTO_MAX_RETRY_TOKENLEN> token{};
     const ngtcp2_ssize token_size = ngtcp2_crypto_generate_retry_token(
         token.data(), secret_.data(), secret_.size(), arrival.header.version, arrival.peer.data(),
-        UdpPlace::size(), &id, &arrival.header.dcid, quic_now());
+        arrival.peer.size(), &id, &arrival.header.dcid, quic_now());
     if (token_size < 0) {
         return;
     }

@@ -157,8 +157,7 @@ struct QuicCallbacks {
                               const ngtcp2_path* path, ngtcp2_path_validation_result result,
                               void* user_data) {
         if (result == NGTCP2_PATH_VALIDATION_RESULT_SUCCESS) {
-            of(user_data).proven_peer_.address =
-                *reinterpret_cast<const sockaddr_in*>(path->remote.addr);
+            of(user_data).proven_peer_ = UdpPlace(path->remote.addr);
         }
         return 0;
     }
@@ -167,7 +166,7 @@ struct QuicCallbacks {
         const QuicSecret& secret = *self.settings_.secret;
         const UdpPlace peer = self.peer();
         const ngtcp2_ssize size = ngtcp2_crypto_generate_regular_token(
-            token.data(), secret.data(), secret.size(), peer.data(), UdpPlace::size(), quic_now());
+            token.data(), secret.data(), secret.size(), peer.data(), peer.size(), quic_now());
         if (size > 0) {
             (void)ngtcp2_conn_submit_new_token(connection, token.data(),
                                                static_cast<std::size_t>(size));

@@ -15,7 +15,7 @@ constexpr int k_most_packets_at_once = 32;
 constexpr ngtcp2_duration k_idle_between = 12 * NGTCP2_MILLISECONDS;
 
 ngtcp2_path path_of(UdpPlace& own, UdpPlace& peer) {
-    return {{own.data(), UdpPlace::size()}, {peer.data(), UdpPlace::size()}, nullptr};
+    return {{own.data(), own.size()}, {peer.data(), peer.size()}, nullptr};
 }
 
 ngtcp2_settings make_settings(const QuicConnectionSettings& settings,
@@ -287,9 +287,7 @@ void QuicConnection::write(UdpSocket& socket) {
             break;
         }
         is_any = true;
-        UdpPlace to;
-        to.address = path.remote_addrbuf.in;
-        socket.send(to,
+        socket.send(UdpPlace(path.path.remote.addr),
                     std::span<const std::uint8_t>(packet).first(static_cast<std::size_t>(size)));
     }
     if (is_any) {
@@ -307,10 +305,7 @@ ngtcp2_tstamp QuicConnection::due() const {
 }
 
 UdpPlace QuicConnection::peer() const {
-    UdpPlace out;
-    out.address =
-        *reinterpret_cast<const sockaddr_in*>(ngtcp2_conn_get_path(connection_)->remote.addr);
-    return out;
+    return UdpPlace(ngtcp2_conn_get_path(connection_)->remote.addr);
 }
 
 void QuicConnection::send_close(UdpSocket& socket, const ngtcp2_connection_close_error& error) {
@@ -320,9 +315,7 @@ void QuicConnection::send_close(UdpSocket& socket, const ngtcp2_connection_close
     const ngtcp2_ssize size = ngtcp2_conn_write_connection_close(
         connection_, &path.path, nullptr, packet.data(), packet.size(), &error, quic_now());
     if (size > 0) {
-        UdpPlace to;
-        to.address = path.remote_addrbuf.in;
-        socket.send(to,
+        socket.send(UdpPlace(path.path.remote.addr),
                     std::span<const std::uint8_t>(packet).first(static_cast<std::size_t>(size)));
     }
 }

@@ -1,11 +1,11 @@
 // A peer's QUIC connection to a server, by ngtcp2.
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "game/net/host_port.hpp"
 #include "game/net/net_messages.hpp"
 #include "game/net/quic_connection.hpp"
 #include "game/net/transport_kinds.hpp"
@@ -18,8 +18,7 @@ constexpr std::uint64_t k_window_bytes = 512U << 10U;
 constexpr int k_kernel_buffer_bytes = 1 << 18;
 
 struct QuicUrl {
-    std::string host;
-    int port = 0;
+    HostPort place;
     Fingerprint fingerprint;
 };
 
@@ -37,17 +36,12 @@ std::optional<QuicUrl> parse_quic_url(std::string_view url) {
         }
         url = url.substr(0, hash);
     }
-    const std::size_t colon = url.find(':');
-    if (colon == std::string_view::npos) {
+    std::optional<HostPort> place = read_host_port(url, 0);
+    if (!place) {
         return std::nullopt;
     }
-    out.host = std::string(url.substr(0, colon));
-    const std::string_view digits = url.substr(colon + 1);
-    const char* const end = digits.data() + digits.size();
-    const auto [stop, error] = std::from_chars(digits.data(), end, out.port);
-    const bool is_good = error == std::errc{} && stop == end && !out.host.empty() &&
-                         out.port >= 1 && out.port <= 65535;
-    return is_good ? std::optional(out) : std::nullopt;
+    out.place = std::move(*place);
+    return out;
 }
 
 // Tokens of servers that this program has been connected to, by URL: with one a busy server needs
@@ -78,37 +72,30 @@ KnownServers& known_servers() {
 
 class QuicLink final : public Link {
   public:
-    QuicLink(const std::string& name, const QuicUrl& url, const UdpPlace& server)
-        : socket_(UdpPlace(), k_kernel_buffer_bytes, UdpSocket::Side::peer),
-          credentials_(TlsCredentials::of_peer(url.host, url.fingerprint)) {
-        QuicConnectionSettings settings;
-        settings.most_message_bytes = k_most_from_server;
-        settings.window_bytes = k_window_bytes;
-        settings.token_given = [name](std::span<const std::uint8_t> token) {
-            known_servers().keep(name, token);
-        };
-        const std::vector<std::uint8_t> token = known_servers().take(name);
-        if (socket_.is_valid()) {
-            connection_ = QuicConnection::connect(*credentials_, socket_.place(), server, token,
-                                                  std::move(settings));
-        }
-        if (connection_ == nullptr) {
-            why_ = "no connection can be made";
-        }
+    // `servers`: the places that the host's name has, at least one. The first that answers is
+    // taken.
+    QuicLink(std::string name, const QuicUrl& url, std::vector<UdpPlace> servers)
+        : name_(std::move(name)),
+          credentials_(TlsCredentials::of_peer(url.place.host, url.fingerprint)),
+          servers_(std::move(servers)) {
+        connect_next();
     }
     ~QuicLink() override {
         if (connection_ != nullptr) {
-            connection_->close(socket_);
+            connection_->close(*socket_);
         }
     }
 
     void poll(double wait_s, LinkHandler& handler) override {
         if (connection_ != nullptr && connection_->end() == QuicEnd::none) {
-            connection_->write(socket_);
+            connection_->write(*socket_);
             wait(wait_s);
             read(handler);
-            connection_->write(socket_);
+            connection_->write(*socket_);
             end_if_due();
+        }
+        if (!has_heard_ && next_ < servers_.size() && closes_since_ == 0 && is_next_due()) {
+            connect_next();
         }
         if (is_told_ || (connection_ != nullptr && connection_->end() == QuicEnd::none)) {
             return;
@@ -124,7 +111,7 @@ class QuicLink final : public Link {
         if (!connection_->push(delivery, message)) {
             close();
         } else if (connection_->is_open()) {
-            connection_->write(socket_);
+            connection_->write(*socket_);
         }
     }
 
@@ -139,11 +126,42 @@ class QuicLink final : public Link {
     }
 
   private:
+    void connect_next() {
+        QuicConnectionSettings settings;
+        settings.most_message_bytes = k_most_from_server;
+        settings.window_bytes = k_window_bytes;
+        settings.token_given = [name = name_](std::span<const std::uint8_t> token) {
+            known_servers().keep(name, token);
+        };
+        const UdpPlace& server = servers_[next_++];
+        began_ = quic_now();
+        why_.clear();
+        if (connection_ != nullptr) {
+            connection_->close(*socket_);
+            connection_ = nullptr;
+        }
+        socket_ = std::make_unique<UdpSocket>(UdpPlace::any(server.family()), k_kernel_buffer_bytes,
+                                              UdpSocket::Side::peer);
+        if (socket_->is_valid()) {
+            connection_ = QuicConnection::connect(*credentials_, socket_->place(), server,
+                                                  known_servers().take(name_), std::move(settings));
+        }
+        if (connection_ == nullptr) {
+            why_ = "no connection can be made";
+        }
+    }
+    // A place that refuses, or does not answer, leaves the turn to the next one.
+    bool is_next_due() const {
+        constexpr ngtcp2_duration k_answers_within = NGTCP2_SECONDS;
+        return connection_ == nullptr || connection_->end() != QuicEnd::none ||
+               quic_now() - began_ > k_answers_within;
+    }
+
     void wait(double wait_s) const {
         const ngtcp2_tstamp due = connection_->due();
         const ngtcp2_tstamp now = quic_now();
         const double due_s = due > now ? static_cast<double>(due - now) / NGTCP2_SECONDS : 0.0;
-        socket_.wait(std::min(wait_s, due_s));
+        socket_->wait(std::min(wait_s, due_s));
     }
 
     void read(LinkHandler& handler) {
@@ -151,21 +169,21 @@ class QuicLink final : public Link {
         for (int i = 0; i < k_most_datagrams && connection_->end() == QuicEnd::none; ++i) {
             UdpPlace from;
             std::span<const std::uint8_t> bytes;
-            const UdpSocket::Read result = socket_.receive(from, bytes);
+            const UdpSocket::Read result = socket_->receive(from, bytes);
             if (result == UdpSocket::Read::nothing) {
                 return;
             }
             if (result == UdpSocket::Read::refused) {
                 if (!has_heard_) {
                     why_ = "connection refused";
-                    connection_->close(socket_);
+                    connection_->close(*socket_);
                 }
                 continue;
             }
             has_heard_ = true;
             const bool was_open = connection_->is_open();
             connection_->read(
-                socket_, server_place(), bytes,
+                *socket_, server_place(), bytes,
                 [&handler](std::span<const std::byte> message) { handler.received(message); });
             if (!was_open && connection_->is_open()) {
                 handler.opened();
@@ -179,12 +197,16 @@ class QuicLink final : public Link {
         if (closes_since_ > 0 &&
             (connection_->is_all_delivered() ||
              static_cast<double>(quic_now() - closes_since_) > k_close_within_s * NGTCP2_SECONDS)) {
-            connection_->close(socket_);
+            connection_->close(*socket_);
         }
     }
 
-    UdpSocket socket_;
+    std::string name_;  // the URL
     std::unique_ptr<TlsCredentials> credentials_;
+    std::vector<UdpPlace> servers_;
+    std::size_t next_ = 0;  // the place that is next
+    ngtcp2_tstamp began_ = 0;
+    std::unique_ptr<UdpSocket> socket_;
     std::unique_ptr<QuicConnection> connection_;
     std::string why_;
     ngtcp2_tstamp closes_since_ = 0;  // 0: stays open
@@ -201,11 +223,11 @@ Result<std::unique_ptr<Link>> open_quic_link(const std::string& url) {
                          "expected quic://HOST:PORT, or quic://HOST:PORT#FINGERPRINT with 64 "
                          "hexadecimal digits"};
     }
-    const std::optional<UdpPlace> server = find_place(parsed->host, parsed->port);
-    if (!server) {
+    std::vector<UdpPlace> servers = find_places(parsed->place.host, parsed->place.port);
+    if (servers.empty()) {
         return FileError{url, "", "no server: there is no such host"};
     }
-    return std::unique_ptr<Link>(std::make_unique<QuicLink>(url, *parsed, *server));
+    return std::unique_ptr<Link>(std::make_unique<QuicLink>(url, *parsed, std::move(servers)));
 }
 
 }  // namespace handhold

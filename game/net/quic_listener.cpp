@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "game/net/host_port.hpp"
 #include "game/net/quic_arrivals.hpp"
 #include "game/net/quic_connection.hpp"
 #include "game/net/receive_budget.hpp"
@@ -69,7 +70,7 @@ class QuicListener final : public DatagramListener {
     int port() const override { return own_.port(); }
     int descriptor() const override { return socket_.descriptor(); }
     std::vector<std::string> urls() const override {
-        return {"quic://" + settings_.address + ":" + std::to_string(port()) + "#" +
+        return {"quic://" + HostPort{settings_.address, port()}.text() + "#" +
                 credentials_->fingerprint()};
     }
 
@@ -187,7 +188,7 @@ class QuicListener final : public DatagramListener {
 
     // 0: the datagram begins no connection.
     LinkId admit(const UdpPlace& from, std::span<const std::uint8_t> bytes) {
-        const std::string address = from.text();
+        const std::string address = counted_address(from.text());
         const auto is_half_open = [](const auto& one) {
             return !one.second.connection->has_valid_address();
         };
@@ -364,10 +365,10 @@ class QuicListener final : public DatagramListener {
 }  // namespace
 
 Result<std::unique_ptr<DatagramListener>> open_quic_listener(const ListenerSettings& settings) {
-    const std::optional<UdpPlace> place = find_place(settings.address, settings.port);
-    const FileError taken{settings.address + ":" + std::to_string(settings.port), "",
+    const std::vector<UdpPlace> places = find_places(settings.address, settings.port);
+    const FileError taken{HostPort{settings.address, settings.port}.text(), "",
                           "expected an address and a port that are free"};
-    if (!place) {
+    if (places.empty()) {
         return taken;
     }
     Result<std::unique_ptr<TlsCredentials>> credentials =
@@ -376,7 +377,7 @@ Result<std::unique_ptr<DatagramListener>> open_quic_listener(const ListenerSetti
         return credentials.error();
     }
     auto listener =
-        std::make_unique<QuicListener>(settings, *place, std::move(credentials.value()));
+        std::make_unique<QuicListener>(settings, places.front(), std::move(credentials.value()));
     if (!listener->is_valid()) {
         return taken;
     }

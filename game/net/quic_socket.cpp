@@ -1,5 +1,6 @@
 #include "game/net/quic_socket.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -17,29 +18,56 @@
 
 namespace handhold {
 
+UdpPlace::UdpPlace(const sockaddr* address) {
+    storage_.ss_family = address->sa_family;
+    std::memcpy(&storage_, address, size());
+}
+
+UdpPlace UdpPlace::any(sa_family_t family) {
+    UdpPlace out;
+    out.storage_.ss_family = family;
+    return out;
+}
+
+std::span<const std::byte> UdpPlace::address_bytes() const {
+    if (family() == AF_INET6) {
+        return std::as_bytes(
+            std::span(reinterpret_cast<const sockaddr_in6*>(&storage_)->sin6_addr.s6_addr));
+    }
+    return std::as_bytes(std::span(&reinterpret_cast<const sockaddr_in*>(&storage_)->sin_addr, 1));
+}
+
 std::string UdpPlace::text() const {
-    std::array<char, INET_ADDRSTRLEN> text{};
-    inet_ntop(AF_INET, &address.sin_addr, text.data(), text.size());
+    std::array<char, INET6_ADDRSTRLEN> text{};
+    inet_ntop(family(), address_bytes().data(), text.data(), text.size());
     return text.data();
 }
 
-std::optional<UdpPlace> find_place(const std::string& host, int port) {
+bool UdpPlace::operator==(const UdpPlace& other) const {
+    return family() == other.family() && port() == other.port() &&
+           std::ranges::equal(address_bytes(), other.address_bytes());
+}
+
+std::vector<UdpPlace> find_places(const std::string& host, int port) {
     addrinfo hints{};
-    hints.ai_family = AF_INET;
+    hints.ai_family = AF_UNSPEC;
     hints.ai_socktype = SOCK_DGRAM;
     addrinfo* found = nullptr;
-    if (getaddrinfo(host.c_str(), nullptr, &hints, &found) != 0 || found == nullptr) {
-        return std::nullopt;
+    std::vector<UdpPlace> out;
+    if (getaddrinfo(host.c_str(), nullptr, &hints, &found) != 0) {
+        return out;
     }
     const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> owner(found, &freeaddrinfo);
-    UdpPlace out;
-    out.address = *reinterpret_cast<const sockaddr_in*>(found->ai_addr);
-    out.address.sin_port = htons(static_cast<std::uint16_t>(port));
+    for (const addrinfo* at = found; at != nullptr; at = at->ai_next) {
+        if (at->ai_family == AF_INET || at->ai_family == AF_INET6) {
+            out.emplace_back(at->ai_addr).set_port(port);
+        }
+    }
     return out;
 }
 
 UdpSocket::UdpSocket(const UdpPlace& place, int kernel_buffer_bytes, Side side)
-    : descriptor_(::socket(AF_INET, SOCK_DGRAM, 0)), side_(side) {
+    : descriptor_(::socket(place.family(), SOCK_DGRAM, 0)), side_(side) {
     if (descriptor_ < 0) {
         return;
     }
@@ -50,9 +78,16 @@ UdpSocket::UdpSocket(const UdpPlace& place, int kernel_buffer_bytes, Side side)
     // nevertheless.
     const int on = side == Side::peer ? 1 : 0;
     ::setsockopt(descriptor_, IPPROTO_IP, IP_RECVERR, &on, sizeof(on));
+    if (place.family() == AF_INET6) {
+        ::setsockopt(descriptor_, IPPROTO_IPV6, IPV6_RECVERR, &on, sizeof(on));
+    }
 #endif
+    if (place.family() == AF_INET6) {
+        const int only_v6 = 0;
+        ::setsockopt(descriptor_, IPPROTO_IPV6, IPV6_V6ONLY, &only_v6, sizeof(only_v6));
+    }
     if (::fcntl(descriptor_, F_SETFL, O_NONBLOCK) != 0 ||
-        ::bind(descriptor_, place.data(), UdpPlace::size()) != 0) {
+        ::bind(descriptor_, place.data(), place.size()) != 0) {
         ::close(descriptor_);
         descriptor_ = -1;
     }
@@ -66,13 +101,13 @@ UdpSocket::~UdpSocket() {
 
 UdpPlace UdpSocket::place() const {
     UdpPlace out;
-    socklen_t size = UdpPlace::size();
+    socklen_t size = UdpPlace::most_size();
     ::getsockname(descriptor_, out.data(), &size);
     return out;
 }
 
 UdpSocket::Read UdpSocket::receive(UdpPlace& from, std::span<const std::uint8_t>& bytes) {
-    socklen_t size = UdpPlace::size();
+    socklen_t size = UdpPlace::most_size();
     const ssize_t got =
         ::recvfrom(descriptor_, buffer_.data(), buffer_.size(), 0, from.data(), &size);
     if (got < 0) {
@@ -98,7 +133,8 @@ bool UdpSocket::take_refusal() const {
         for (const cmsghdr* at = CMSG_FIRSTHDR(&told); at != nullptr;
              at = CMSG_NXTHDR(&told, const_cast<cmsghdr*>(at))) {
             sock_extended_err error{};
-            if (at->cmsg_level == IPPROTO_IP && at->cmsg_type == IP_RECVERR) {
+            if ((at->cmsg_level == IPPROTO_IP && at->cmsg_type == IP_RECVERR) ||
+                (at->cmsg_level == IPPROTO_IPV6 && at->cmsg_type == IPV6_RECVERR)) {
                 std::memcpy(&error, CMSG_DATA(at), sizeof(error));
                 is_refused = is_refused || error.ee_errno == ECONNREFUSED;
             }
@@ -111,8 +147,7 @@ bool UdpSocket::take_refusal() const {
 void UdpSocket::send(const UdpPlace& to, std::span<const std::uint8_t> bytes) {
     ++sent_datagrams_;
     sent_bytes_ += bytes.size();
-    (void)::sendto(descriptor_, bytes.data(), bytes.size(), MSG_NOSIGNAL, to.data(),
-                   UdpPlace::size());
+    (void)::sendto(descriptor_, bytes.data(), bytes.size(), MSG_NOSIGNAL, to.data(), to.size());
 }
 
 std::uint64_t UdpSocket::overflowed_datagrams() const {

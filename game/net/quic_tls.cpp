@@ -6,10 +6,12 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include <arpa/inet.h>
 #include <gnutls/crypto.h>
 #include <gnutls/x509.h>
 #include <ngtcp2/ngtcp2_crypto_gnutls.h>
+
+#include "game/net/host_port.hpp"
+
 
 namespace handhold {
 namespace {
@@ -91,11 +93,6 @@ Fingerprint use_certificate_made_now(gnutls_certificate_credentials_t credential
     Fingerprint out = fingerprint_of(der);
     gnutls_free(der.data);
     return out;
-}
-
-bool is_numeric(const std::string& host) {
-    in_addr unused{};
-    return inet_pton(AF_INET, host.c_str(), &unused) == 1;
 }
 
 }  // namespace
@@ -194,7 +191,7 @@ TlsSession::TlsSession(const TlsCredentials& credentials, bool is_server, ngtcp2
     gnutls_session_set_ptr(session_, static_cast<ngtcp2_crypto_conn_ref*>(&reference_));
     if (!is_server) {
         gnutls_session_set_verify_function(session_, &TlsSession::check_certificate);
-        if (!is_numeric(credentials.host())) {
+        if (!is_address(credentials.host())) {
             gnutls_server_name_set(session_, GNUTLS_NAME_DNS, credentials.host().data(),
                                    credentials.host().size());
         }

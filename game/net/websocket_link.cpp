@@ -1,10 +1,10 @@
 // A peer's WebSocket connection to a server, by libwebsockets.
-#include <charconv>
 #include <exception>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "game/net/host_port.hpp"
 #include "game/net/net_messages.hpp"
 #include "game/net/send_queue.hpp"
 #include "game/net/transport_kinds.hpp"
@@ -18,8 +18,7 @@ constexpr std::size_t k_most_from_server = StatePiece::k_most_bytes + 64;
 
 struct WebSocketUrl {
     bool is_secure = false;
-    std::string host;
-    int port = 0;
+    HostPort place;
     std::string path;
 };
 
@@ -32,20 +31,12 @@ std::optional<WebSocketUrl> parse_url(std::string_view url) {
     url.remove_prefix(out.is_secure ? 6 : 5);
     const std::size_t slash = std::min(url.find('/'), url.size());
     out.path = slash < url.size() ? std::string(url.substr(slash)) : "/";
-    const std::string_view place = url.substr(0, slash);
-    const std::size_t colon = place.find(':');
-    out.host = std::string(place.substr(0, colon));
-    out.port = out.is_secure ? 443 : 80;
-    if (colon != std::string_view::npos) {
-        const std::string_view digits = place.substr(colon + 1);
-        const char* const end = digits.data() + digits.size();
-        const auto [stop, error] = std::from_chars(digits.data(), end, out.port);
-        if (error != std::errc{} || stop != end) {
-            return std::nullopt;
-        }
+    std::optional<HostPort> place = read_host_port(url.substr(0, slash), out.is_secure ? 443 : 80);
+    if (!place) {
+        return std::nullopt;
     }
-    const bool is_good = !out.host.empty() && out.port >= 1 && out.port <= 65535;
-    return is_good ? std::optional(out) : std::nullopt;
+    out.place = std::move(*place);
+    return out;
 }
 
 class WebSocketLink final : public Link {
@@ -59,10 +50,10 @@ class WebSocketLink final : public Link {
         }
         lws_client_connect_info connect{};
         connect.context = context_.get();
-        connect.address = url_.host.c_str();
+        connect.address = url_.place.host.c_str();
         connect.host = connect.address;
         connect.origin = connect.address;
-        connect.port = url_.port;
+        connect.port = url_.place.port;
         connect.path = url_.path.c_str();
         connect.protocol = k_websocket_protocol;
         connect.ssl_connection = url_.is_secure ? LCCSCF_USE_SSL : 0;
@@ -114,9 +105,8 @@ class WebSocketLink final : public Link {
         info.port = CONTEXT_PORT_NO_LISTEN;
         info.protocols = protocols.data();
         info.user = self;
-        info.options = LWS_SERVER_OPTION_DISABLE_IPV6;
         if (url.is_secure) {
-            info.options |= LWS_SERVER_OPTION_DO_SSL_GLOBAL_INIT;
+            info.options = LWS_SERVER_OPTION_DO_SSL_GLOBAL_INIT;
         }
         info.fd_limit_per_thread = 8;
         info.timeout_secs = 10;

@@ -10,6 +10,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "game/net/host_port.hpp"
 #include "game/net/receive_budget.hpp"
 #include "game/net/send_queue.hpp"
 #include "game/net/transport_kinds.hpp"
@@ -54,7 +55,7 @@ class WebSocketListener final : public Listener {
         return lws_get_vhost_listen_port(lws_get_vhost_by_name(context_.get(), "default"));
     }
     std::vector<std::string> urls() const override {
-        return {"ws://" + settings_.address + ":" + std::to_string(port())};
+        return {"ws://" + HostPort{settings_.address, port()}.text()};
     }
 
     void poll(double wait_s, ListenerHandler& handler) override {
@@ -114,8 +115,11 @@ class WebSocketListener final : public Listener {
         info.iface = settings_.address.c_str();
         info.protocols = protocols_.data();
         info.user = this;
-        info.options = LWS_SERVER_OPTION_FAIL_UPON_UNABLE_TO_BIND | LWS_SERVER_OPTION_DISABLE_IPV6 |
-                       LWS_SERVER_OPTION_SKIP_SERVER_CANONICAL_NAME;
+        const bool is_v6 = settings_.address.find(':') != std::string::npos;
+        info.options = LWS_SERVER_OPTION_FAIL_UPON_UNABLE_TO_BIND |
+                       LWS_SERVER_OPTION_SKIP_SERVER_CANONICAL_NAME |
+                       (is_v6 ? LWS_SERVER_OPTION_IPV6_V6ONLY_MODIFY  // IPv4 too, at ::
+                              : LWS_SERVER_OPTION_DISABLE_IPV6);
         info.fd_limit_per_thread = static_cast<unsigned>(settings_.most_links) + k_other_files;
         info.timeout_secs = 5;
         info.keepalive_timeout = 5;
@@ -186,7 +190,7 @@ class WebSocketListener final : public Listener {
     }
 
     int admit_socket(lws* wsi) {
-        std::string address = address_of(wsi);
+        std::string address = counted_address(address_of(wsi));
         const auto same = std::ranges::count(
             sockets_, address, [](const auto& one) -> const std::string& { return one.second; });
         if (static_cast<std::size_t>(same) >= settings_.most_of_address) {
@@ -217,7 +221,7 @@ class WebSocketListener final : public Listener {
                                                    .incoming = {},
                                                    .outgoing = {}});
         ++counts_.opened;
-        handler_->opened(session.link, address_of(wsi));
+        handler_->opened(session.link, counted_address(address_of(wsi)));
     }
 
     void forget(const WebSocketSession& session) {
@@ -384,7 +388,7 @@ Result<std::unique_ptr<Listener>> open_websocket_listener(const ListenerSettings
                                                           int descriptor) {
     auto listener = std::make_unique<WebSocketListener>(settings, descriptor);
     if (!listener->is_valid()) {
-        return FileError{settings.address + ":" + std::to_string(settings.port), "",
+        return FileError{HostPort{settings.address, settings.port}.text(), "",
                          "expected an address and a port that are free"};
     }
     return std::unique_ptr<Listener>(std::move(listener));

@@ -155,6 +155,14 @@ void require_no_server(hh_match* match) {
             "the match is neither a client's nor a spectator's");
 }
 
+void advance_client(hh_match& match, const hh_match_input& input, std::uint8_t& advanced) {
+    ClientSession& client = *match.client;
+    const MatchInput own = take_input(match, match.def.slot, input);
+    match.events.clear();
+    advanced = client.advance(own, input.is_hidden == 0) ? 1 : 0;
+    confirm_events(match, client.final_state());
+}
+
 }  // namespace
 
 hh_match::hh_match(hh_world& of_world, const hh_match_def& wanted, const hh_match_game& of_game)
@@ -252,13 +260,12 @@ hh_result hh_match_advance(hh_match* match, const hh_match_input* input, uint8_t
         if (match->spectator != nullptr) {
             match->events.clear();
             *advanced = match->spectator->advance(read.is_hidden == 0) ? 1 : 0;
-            return;
+        } else {
+            advance_client(*match, read, *advanced);
         }
-        ClientSession& client = *match->client;
-        const MatchInput own = take_input(*match, match->def.slot, read);
-        match->events.clear();
-        *advanced = client.advance(own, read.is_hidden == 0) ? 1 : 0;
-        confirm_events(*match, client.final_state());
+        if (*advanced != 0 && read.is_hidden == 0) {
+            note_drawn(*match);
+        }
     });
 }
 
@@ -292,6 +299,7 @@ hh_result hh_match_join(hh_match* match, const void* bytes, size_t size) {
         if (error) {
             throw HostError{HH_ERROR_DATA, error->message()};
         }
+        match->drawn.forget();
     });
 }
 

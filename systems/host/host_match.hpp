@@ -12,6 +12,7 @@
 
 #include "systems/host/host_world.hpp"
 #include "systems/match/client_session.hpp"
+#include "systems/match/drawn_poses.hpp"
 #include "systems/match/server_session.hpp"
 #include "systems/match/spectator_session.hpp"
 #include "systems/match/sync_test.hpp"
@@ -75,6 +76,7 @@ struct hh_match {
     handhold::MatchTick confirmed_events = 0;        // events up to this tick were confirmed
     std::optional<handhold::JoinedReports> joining;  // set between MatchHost::read and joined
     std::vector<hh_match_event> events;
+    handhold::DrawnPoses drawn;
     std::vector<std::byte> state;       // scratch
     std::vector<std::uint8_t> matched;  // scratch
     bool is_in_game = false;            // a function of the game runs
@@ -96,5 +98,7 @@ void tell_events(hh_match& match);
 void confirm_events(hh_match& match, MatchTick until);
 // Retracts all events that are not final: the world was replaced.
 void retract_events(hh_match& match);
+// Call after each tick that is shown.
+void note_drawn(hh_match& match);
 
 }  // namespace handhold

@@ -27,6 +27,15 @@ hh_measures write_measures(const BodyMeasures& measures) {
 }
 
 }  // namespace
+Pose hand_in_controller(const hh_world& host, Entity player, HandSide side) {
+    if (const ControllerToHand* const own =
+            host.world.controller_to_hand.find(hand_of(host.world, player, side))) {
+        return own->hand_in_controller;
+    }
+    TuningOfPlayers tunings(host.tuning);
+    return default_controller_to_hand(side, tunings.of(host.world.player_origin.at(player)).hand);
+}
+
 }  // namespace handhold
 
 using namespace handhold;
@@ -238,14 +247,8 @@ hh_result hh_player_hand_in_controller(const hh_world* world, hh_player player, 
     return call([&] {
         const hh_world& host = world_of(world);
         require(hand_in_controller != nullptr, HH_ERROR_NULL, "the output is null");
-        const HandSide which = side_of(side);
-        const Entity entity = player_of(host, player);
-        const ControllerToHand* const own =
-            host.world.controller_to_hand.find(hand_of(host.world, entity, which));
-        TuningOfPlayers tunings(host.tuning);
-        const HandTuning& tuning = tunings.of(host.world.player_origin.at(entity)).hand;
-        *hand_in_controller = to_c(own != nullptr ? own->hand_in_controller
-                                                  : default_controller_to_hand(which, tuning));
+        *hand_in_controller =
+            to_c(handhold::hand_in_controller(host, player_of(host, player), side_of(side)));
     });
 }
 

@@ -35,9 +35,11 @@ const HostShape* moved_shape_of(const hh_world& host, Entity body) {
 }
 
 Pose host_pose_of(const hh_world& host, Entity body) {
-    const Pose& pose_ws = host.world.body_pose.at(body).pose_ws;
+    return host_pose_of(host, body, host.world.body_pose.at(body).pose_ws);
+}
+Pose host_pose_of(const hh_world& host, Entity body, const Pose& library_pose_ws) {
     const HostShape* const shape = moved_shape_of(host, body);
-    return shape == nullptr ? pose_ws : pose_ws * inverse(shape->frame);
+    return shape == nullptr ? library_pose_ws : library_pose_ws * inverse(shape->frame);
 }
 
 Pose library_pose(const hh_world& host, Entity body, const Pose& host_pose_ws) {

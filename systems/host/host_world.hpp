@@ -208,6 +208,7 @@ std::size_t shape_count(const hh_world& host);
 // Convert between a body's library frame and its host frame, in which the host made its shape.
 const HostShape* moved_shape_of(const hh_world& host, Entity body);  // null: the frames are equal
 Pose host_pose_of(const hh_world& host, Entity body);
+Pose host_pose_of(const hh_world& host, Entity body, const Pose& library_pose_ws);
 Pose library_pose(const hh_world& host, Entity body, const Pose& host_pose_ws);
 // Converts a pose from the body's library frame to its host frame, and back.
 Pose to_host_bs(const hh_world& host, Entity body, const Pose& pose_bs);
@@ -215,6 +216,8 @@ Pose from_host_bs(const hh_world& host, Entity body, const Pose& pose_bs);
 
 // The pose in play space of the space in which a player's samples are given (HeadTracking's shift).
 Pose samples_in_play_space(const hh_world& host, Entity player);
+// The pose of a wrist in what the samples give: of the player, or of the tuning.
+Pose hand_in_controller(const hh_world& host, Entity player, HandSide side);
 // The pose of that space in the world, which hosts call the player's origin.
 Pose samples_space_ws(const hh_world& host, Entity player);
 // The pose of the play space for such an origin.

@@ -54,6 +54,8 @@ class ClientSession {
     // How many times to call advance for so much time of the local clock: about one a tick, a
     // little more or less so that inputs reach the server just before their deadlines.
     int ticks_due(double elapsed_s) { return pacer_.ticks_due(elapsed_s, match_.dt_s); }
+    // See TickPacer::past_ticks.
+    double past_ticks() const { return pacer_.past_ticks(); }
     // Steps the world by one tick with the own input. Only the last of several calls in a frame
     // needs to be shown. False: nothing was confirmed for k_window ticks, so the world waits.
     bool advance(const MatchInput& own, bool is_shown = true);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -37,9 +38,12 @@ class SpectatorSession {
     MatchRefusal receive(std::span<const std::byte> packet);
     // How many times to call advance for so much time of the local clock.
     int ticks_due(double elapsed_s);
+    // See TickPacer::past_ticks.
+    double past_ticks() const { return std::min(debt_ticks_, 1.0); }
     // Steps the next confirmed tick. False: its inputs have not come.
     bool advance(bool is_shown = true);
 
+    const MatchWorld& match() const { return match_; }
     MatchTick now() const { return match_.world.clock.frame; }
     // The inputs up to this tick have come.
     MatchTick received() const { return histories_[0].final_until(); }

@@ -48,6 +48,8 @@ class TickPacer {
         debt_ticks_ += std::min(whole - now, k_most_jump);
         return static_cast<int>(now);
     }
+    // The part of a tick, [0, 1], by which the local clock is past the ticks that were due.
+    double past_ticks() const { return std::min(debt_ticks_, 1.0); }
 
   private:
     static constexpr double k_most_jump = 48.0;  // ticks

@@ -1,6 +1,8 @@
 // A player of a match without sockets: the test on the other side of the pipes carries its messages
 // (game/web/test/cross_match.test.mjs). For targets that an emulator runs.
 //
+// usage: handhold-match-peer PERSON     a number that no other player of the match has
+//
 // Requests on standard input; numbers are little-endian, `now` is a clock in seconds, 8 bytes:
 //   L size (4) offer     loads the level; the answer is a text, its size (4) first: why it cannot
 //   C now                begins to connect
@@ -11,6 +13,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <handhold/handhold.hpp>
@@ -112,6 +115,11 @@ void poll(double now_s, std::uint64_t& gripping) {
     }
     constexpr std::uint32_t k_playing = 3;
     gripping += page_stage() == k_playing && grips() ? 1U : 0U;
+    constexpr std::uint32_t k_ended = 4;
+    static bool is_told = false;
+    if (page_stage() == k_ended && !std::exchange(is_told, true)) {
+        std::fprintf(stderr, "%s\n", page_why());
+    }
     std::vector<std::vector<char>> kept;
     const void* message = nullptr;
     for (std::size_t size = page_next_message(&message); size > 0;
@@ -129,8 +137,13 @@ void poll(double now_s, std::uint64_t& gripping) {
 }  // namespace
 }  // namespace handhold
 
-int main() {
+int main(int count, char** words) {
     using namespace handhold;
+    if (count != 2) {
+        std::fprintf(stderr, "usage: handhold-match-peer PERSON\n");
+        return 2;
+    }
+    const std::uint64_t person = std::strtoull(words[1], nullptr, 10);
 #ifdef _WIN32
     _setmode(_fileno(stdin), _O_BINARY);
     _setmode(_fileno(stdout), _O_BINARY);
@@ -143,7 +156,7 @@ int main() {
             const char* const why = page_load(bytes.data(), bytes.size());
             write_bytes(why == nullptr ? "" : why);
         } else if (request == 'C' && read_as(now_s)) {
-            page_connect(7, "", now_s);
+            page_connect(person, "", now_s);
         } else if (request == 'M' && read_bytes(bytes)) {
             page_receive(bytes.data(), bytes.size());
         } else if (request == 'P' && read_as(now_s)) {

@@ -1,5 +1,6 @@
 // The guide's match: a server and two players, each with a world of its own, over a queue that
 // loses packets. Their worlds and their scores are equal, bit for bit.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include <handhold/match.hpp>
+#include <handhold/math.hpp>
 
 namespace {
 
@@ -111,6 +113,7 @@ int main() {
     std::uint64_t checked_until = 0;
     int sounds = 0;
     int feed = 0;
+    double farthest_m = 0.0;  // of the drawn players
     for (int frame = 1; frame <= 360; ++frame) {
         const double now_s = frame * k_tick_s;
         while (!queue.packets.empty() && queue.packets.front().arrives <= frame) {
@@ -153,6 +156,15 @@ int main() {
             (void)own.match.packet(packet);
             queue.send(seat, k_to_server, frame, packet);
             // [client]
+            // [draw]
+            const hh::Sample newest = devices(seat, own.world.time_s());
+            for (std::uint32_t slot = 0; slot < k_seats; ++slot) {
+                if (const auto drawn =
+                        own.match.drawn_player(slot, slot == seat ? &newest : nullptr)) {
+                    farthest_m = std::max(farthest_m, hh::length(drawn->origin.position));
+                }
+            }
+            // [draw]
         }
         // Every confirmed tick of the first client is the server's.
         const hh_match_stats stats = clients[0]->match.stats();
@@ -173,5 +185,7 @@ int main() {
                 static_cast<unsigned long long>(compared),
                 static_cast<unsigned long long>(stats.rollbacks),
                 static_cast<unsigned long long>(server.game.state.grips), sounds, feed);
-    return compared > 200 && stats.rollbacks > 50 && feed > 4 && sounds >= feed ? 0 : 1;
+    return compared > 200 && stats.rollbacks > 50 && feed > 4 && sounds >= feed && farthest_m > 1.0
+               ? 0
+               : 1;
 }

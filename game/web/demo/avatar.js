@@ -26,6 +26,17 @@ const to = new THREE.Vector3();
 const cylinder = new THREE.CylinderGeometry(1, 1, 1, 10, 1, true);
 const sphere = new THREE.SphereGeometry(1, 10, 8);
 
+const unit = new THREE.Vector3(1, 1, 1);
+const matrixOf = ({ position, rotation }) => new THREE.Matrix4().compose(new THREE.Vector3().copy(position), new THREE.Quaternion().copy(rotation), unit);
+// Moves points from where they are stepped to where they are drawn.
+function motionTo(drawn, stepped) {
+    if (!drawn) {
+        return (point) => point;
+    }
+    const motion = matrixOf(drawn).multiply(matrixOf(stepped).invert());
+    return (point) => new THREE.Vector3().copy(point).applyMatrix4(motion);
+}
+
 // A cylinder with a ball at the end: bones in a row look like capsules.
 function bone(material) {
     const group = new THREE.Group();
@@ -61,15 +72,17 @@ export class Avatar {
         scene.add(...this.hands.flat(), ...this.arms, ...this.trunk, ...this.head, ...this.tracked, ...this.anchors, ...this.pulls);
     }
 
-    /** `figure`: what loadFigure returned for the player, if anything; its own hands are then the only ones. */
-    update(world, player, pose, showsGizmos, dt_s, figure) {
+    /** `figure`: what loadFigure returned for the player, if anything; its own hands are then the only ones. `drawn`: of Match.drawnPlayer. */
+    update(world, player, pose, showsGizmos, dt_s, { figure, drawn } = {}) {
+        const moveHand = [HH_LEFT, HH_RIGHT].map((side) => motionTo(drawn?.hands[side], pose.hands[side].shown));
+        const moveHead = motionTo(drawn?.head, pose.head);
         for (const side of [HH_LEFT, HH_RIGHT]) {
             const joints = world.handJoints(player, side, HH_SPACE_WORLD);
             handBones.forEach(([a, b], i) => {
                 const mesh = this.hands[side][i];
                 mesh.visible = !figure?.hasHands && joints[a].is_valid && joints[b].is_valid;
                 if (mesh.visible) {
-                    stretch(mesh, joints[a].pose.position, joints[b].pose.position, Math.max(joints[b].radius_m, 0.006));
+                    stretch(mesh, moveHand[side](joints[a].pose.position), moveHand[side](joints[b].pose.position), Math.max(joints[b].radius_m, 0.006));
                 }
             });
             const hand = pose.hands[side];
@@ -86,14 +99,16 @@ export class Avatar {
                 this.pulls[side].setLength(length_m, 0.05, 0.03);
             }
         }
-        const body = world.bodyJoints(player, HH_SPACE_WORLD);
+        const handJoints = [HH_LEFT_HAND, HH_RIGHT_HAND];
+        const body = world.bodyJoints(player, HH_SPACE_WORLD)
+            .map(({ position }, joint) => (handJoints.includes(joint) ? moveHand[handJoints.indexOf(joint)] : moveHead)(position));
         armBones.forEach(([a, b], i) => {
             this.arms[i].visible = !figure?.hasHands;
-            stretch(this.arms[i], body[a].position, body[b].position, 0.035);
+            stretch(this.arms[i], body[a], body[b], 0.035);
         });
-        this.trunk.forEach((mesh, i) => stretch(mesh, body[bodyBones[i][0]].position, body[bodyBones[i][1]].position, bodyBones[i][2]));
+        this.trunk.forEach((mesh, i) => stretch(mesh, body[bodyBones[i][0]], body[bodyBones[i][1]], bodyBones[i][2]));
         for (const mesh of this.head) {
-            mesh.position.copy(pose.head.position);
+            mesh.position.copy(moveHead(pose.head.position));
             mesh.scale.setScalar(k_head_radius_m);
         }
     }

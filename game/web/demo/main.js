@@ -142,7 +142,7 @@ async function addClimber() {
     let begin_s = 0;
     return { id, read, update: (showsGizmos, dt_s) => {
         figure.update();
-        avatar.update(world, id, world.playerPose(id), showsGizmos, dt_s, figure);
+        avatar.update(world, id, world.playerPose(id), showsGizmos, dt_s, { figure });
     } };
 }
 function resize() {
@@ -186,7 +186,7 @@ function playRecording(dt_s) {
     }
 }
 // A match goes on between pictures, however long those take; only a headset's devices are read in its frames.
-let matchSample = null; // of mouse and keyboard
+let matchSample = null; // the newest of the devices
 let matchRead_ms;
 let matchTimer;
 let matchDefect = null; // what the match has thrown: it is not stepped any more
@@ -242,13 +242,15 @@ function advance(dt_s, { usesWrists, sample, commands }) {
 /** Moves what is drawn to where the world has it. */
 function show(dt_s, frame_ms) {
     const pose = world.playerPose(player);
-    place(rig, pose.origin);
-    world.bodyPoses(level.movers.map((one) => one.body)).forEach((at, i) => place(level.movers[i].object, at));
+    const drawn = match?.drawnPlayer(match.slot, matchSample) ?? pose; // a match's ticks are not the pictures
+    place(rig, drawn.origin);
+    const bodies = level.movers.map((one) => one.body);
+    (match?.drawnBodies(bodies) ?? world.bodyPoses(bodies)).forEach((at, i) => place(level.movers[i].object, at));
     const showsGizmos = element('gizmos').checked;
-    avatar.update(world, player, pose, showsGizmos, recorded ? k_recorded_step_s : dt_s);
+    avatar.update(world, player, pose, showsGizmos, recorded ? k_recorded_step_s : dt_s, { drawn: match ? drawn : null });
     climber?.update(showsGizmos, dt_s);
     for (const other of others) {
-        other.avatar.update(world, other.id, world.playerPose(other.id), showsGizmos, dt_s);
+        other.avatar.update(world, other.id, world.playerPose(other.id), showsGizmos, dt_s, { drawn: match.drawnPlayer(other.slot) });
     }
     const v = pose.velocity_mps;
     const speed_mps = Math.hypot(v.x, v.y, v.z);
@@ -270,11 +272,13 @@ function onFrame(now_ms, frame) {
     if (recorded) {
         playRecording(wall_s);
     } else if (match && !inHeadset) {
+        followMatch(); // up to this picture
         if (matchSample) {
             place(camera, matchSample.head);
         }
     } else {
         const devices = inHeadset ? headset.read(frame, space, element('smooth').checked) : desktop.read(dt_s);
+        matchSample = devices.sample;
         advance(dt_s, devices);
         if (!inHeadset) {
             place(camera, devices.sample.head);

@@ -199,6 +199,31 @@ export class Match {
             return result === 0 ? `0x${m.view.getBigUint64(at, true).toString(16).padStart(16, '0')}` : null;
         });
     }
+    /** Where to draw a slot's player between two ticks, at the time of the last poll: `origin`, `head` and `hands`, as of hh_match_drawn_player.
+     * `newest`: the own devices now. Null before the first tick that is shown. */
+    drawnPlayer(slot, newest = null) {
+        const { exports } = this.handhold;
+        const match = exports.page_match();
+        return match === 0 ? null : this.handhold.scratch((m) => {
+            const sample = newest === null ? 0 : m.takeOne('hh_tracking_sample', newest);
+            const out = Array.from({ length: 4 }, () => m.takeOne('hh_pose'));
+            if (exports.hh_match_drawn_player(match, slot, sample, ...out) !== 0) {
+                return null;
+            }
+            const [origin, head, left, right] = out.map((at) => m.read('hh_pose', at));
+            return { origin, head, hands: [left, right] };
+        });
+    }
+    /** Poses of bodies, likewise. */
+    drawnBodies(bodies) {
+        const { exports } = this.handhold;
+        const match = exports.page_match();
+        return match === 0 ? null : this.handhold.scratch((m) => {
+            const out = m.takeList('hh_pose', bodies.map(() => ({})));
+            const result = exports.hh_match_drawn_bodies(match, m.takeList('hh_body', bodies), bodies.length, out);
+            return result === 0 ? m.readList('hh_pose', out, bodies.length) : null;
+        });
+    }
     /** PageVisual of what is drawn, with `vertices` and `indices` as arrays. */
     visuals() {
         const { memory } = this.handhold;

@@ -41,6 +41,18 @@ test('a peer in WebAssembly and two native bots have the hashes of the server, i
     const bots = new Program(context, 'bots', 2, '--join', url);
     const { hashes, seen } = await playOn(match, seconds);
     const stats = match.stats();
+    // Between two ticks everybody and everything is drawn near to where it is stepped; the own head follows the newest sample.
+    const apart_m = (a, b) => Math.hypot(a.x - b.x, a.y - b.y, a.z - b.z);
+    const bodies = match.world.bodies();
+    const poses = match.world.bodyPoses(bodies);
+    const drawnBodies = match.drawnBodies(bodies);
+    assert.equal(drawnBodies.length, bodies.length);
+    drawnBodies.forEach(({ position }, i) => assert.ok(apart_m(position, poses[i].position) < 0.5, `${i}`));
+    match.players.forEach((id, slot) => {
+        assert.ok(apart_m(match.drawnPlayer(slot).head.position, match.world.playerPose(id).head.position) < 0.5, `${slot}`);
+    });
+    const heads = [0, 0.5].map((y) => match.drawnPlayer(0, { head: { position: { x: 0, y: 1 + y, z: 0 }, rotation: { x: 0, y: 0, z: 0, w: 1 } } }).head.position);
+    assert.ok(Math.abs(apart_m(...heads) - 0.5) < 1e-9);
     match.leave();
     const left = await server.waitFor('left');
     assert.equal(await server.end(), 0);

@@ -145,6 +145,7 @@ export function equalHashes(hashes, program) {
 
 /** A program of tests/portability/match_peer.cpp, for which this one carries the messages. */
 export class DrivenPeer {
+    static #persons = 0; // the server takes two players with one number for the same person
     #answers = Buffer.alloc(0);
     #wake = () => {};
     hashes = new Map();
@@ -152,7 +153,8 @@ export class DrivenPeer {
 
     constructor(context, name, command) {
         this.name = name;
-        this.process = spawn(command[0], command.slice(1), { stdio: ['pipe', 'pipe', 'inherit'] });
+        const person = ++DrivenPeer.#persons;
+        this.process = spawn(command[0], [...command.slice(1), String(person)], { stdio: ['pipe', 'pipe', 'inherit'] });
         this.process.stdout.on('data', (data) => {
             this.#answers = Buffer.concat([this.#answers, data]);
             this.#wake();

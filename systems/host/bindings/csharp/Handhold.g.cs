@@ -1888,6 +1888,10 @@ namespace Handhold {
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_match_shown_offsets(IntPtr match, uint slot, Vec3* head, Vec3* left, Vec3* right);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_match_drawn_player(IntPtr match, uint slot, TrackingSample* newest, HhPose* origin, HhPose* head, HhPose* left, HhPose* right);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
+        public static extern Result hh_match_drawn_bodies(IntPtr match, Body* bodies, UIntPtr count, HhPose* poses);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_match_events_sized(IntPtr match, MatchEvent** events, UIntPtr* count, UIntPtr event_size);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)]
         public static extern Result hh_default_match_stats_sized(MatchStats* filled, UIntPtr size);

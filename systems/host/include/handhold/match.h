@@ -28,8 +28,8 @@ typedef struct hh_match hh_match;
 #define HH_MATCH_PACKET_BYTES 1200 /* most bytes of a packet */
 #define HH_MATCH_INPUTS_BYTES 8192 /* most bytes of hh_match_confirmed_inputs */
 #define HH_MATCH_NO_SLOT 0xffffffffu
-#define HH_MATCH_PLACES 64         /* copies of its own state that a game keeps */
-#define HH_MATCH_REFUSALS 16       /* length of hh_match_stats.refused */
+#define HH_MATCH_PLACES 64   /* copies of its own state that a game keeps */
+#define HH_MATCH_REFUSALS 16 /* length of hh_match_stats.refused */
 
 typedef enum hh_match_role {
     HH_MATCH_CLIENT = 0,
@@ -132,13 +132,14 @@ HH_API hh_result hh_match_ticks_due(hh_match* match, double elapsed_s, uint32_t*
  * again: docs/reference/matches.md has figures. A spectator steps the next confirmed tick, or gets
  * false if its inputs have not come; of `input` it takes only is_hidden. */
 HH_API hh_result hh_match_advance(hh_match* match, const hh_match_input* input, uint8_t* advanced);
-/* Takes a packet of the server; a spectator those of hh_match_confirmed_inputs. HH_ERROR_DATA, and no change, for bytes that are damaged or not of
- * this match. Packets that came too late or out of order are HH_OK: what they lack comes again.
- * Both are counted in hh_match_stats.refused. Tolerates any bytes. */
+/* Takes a packet of the server; a spectator those of hh_match_confirmed_inputs. HH_ERROR_DATA, and
+ * no change, for bytes that are damaged or not of this match. Packets that came too late or out of
+ * order are HH_OK: what they lack comes again. Both are counted in hh_match_stats.refused.
+ * Tolerates any bytes. */
 HH_API hh_result hh_match_receive(hh_match* match, const void* packet, size_t size);
-/* Clients only. Writes the next packet to the server, `size` bytes. Call once a tick or once in two. A null
- * `buffer` asks for the most bytes that a packet has, HH_MATCH_PACKET_BYTES; HH_ERROR_CAPACITY for
- * a smaller `capacity`. */
+/* Clients only. Writes the next packet to the server, `size` bytes. Call once a tick or once in
+ * two. A null `buffer` asks for the most bytes that a packet has, HH_MATCH_PACKET_BYTES;
+ * HH_ERROR_CAPACITY for a smaller `capacity`. */
 HH_API hh_result hh_match_packet(hh_match* match, void* buffer, size_t capacity, size_t* size);
 /* Replaces the world's state by the one of hh_match_state, over a reliable stream of yours. Set
  * your own state to the server's of the same tick before the next hh_match_advance. HH_ERROR_DATA,
@@ -188,8 +189,9 @@ HH_API hh_result hh_match_sync_test(hh_match* match, const hh_match_input* input
  * spectators: over a reliable stream of yours, or into a file, which then has the whole match.
  * `until` gets the last tick written, `after` if there is nothing new: 128 ticks at most, and fewer
  * if the buffer is full. Every 90th tick carries its hash, which the reader compares.
- * HH_ERROR_VALUE if `after` is later than what is confirmed, or too early: 320 ticks are always kept,
- * at most 448. A spectator then needs a state. A null `buffer` asks for HH_MATCH_INPUTS_BYTES; HH_ERROR_CAPACITY for less. */
+ * HH_ERROR_VALUE if `after` is later than what is confirmed, or too early: 320 ticks are always
+ * kept, at most 448. A spectator then needs a state. A null `buffer` asks for
+ * HH_MATCH_INPUTS_BYTES; HH_ERROR_CAPACITY for less. */
 HH_API hh_result hh_match_confirmed_inputs(const hh_match* match, uint64_t after, void* buffer,
                                            size_t capacity, size_t* size, uint64_t* until);
 
@@ -209,6 +211,22 @@ HH_API hh_result hh_match_hash(const hh_match* match, uint64_t tick, uint64_t* h
  * at what you hold. Only for pictures. Zero for servers, spectators and sync tests. */
 HH_API hh_result hh_match_shown_offsets(const hh_match* match, uint32_t slot, hh_vec3* head,
                                         hh_vec3* left, hh_vec3* right);
+
+/* Where to draw a slot's player between two ticks, for displays of another rate than the tick's:
+ * at the time up to which hh_match_ticks_due has been called, less one tick, which lies between the
+ * last two shown ticks. Call after the ticks of a picture. With hh_match_shown_offsets already.
+ * World poses: `origin` is the space of the samples, for the camera rig; `head`; and wrists to
+ * draw. A play space that is moved or turned at once, by a teleport or a snap turn, is not drawn in
+ * between. `newest`, for the own slot: the devices at the time of the picture, of any time_s. Head
+ * and empty hands are then drawn where they are, and not late. Null: between ticks, as everything
+ * else. Fingers go with their wrist; arms, spine and legs with the head. Never changes the world.
+ * Clients and spectators. HH_ERROR_STATE before the first shown tick, and after hh_match_join. */
+HH_API hh_result hh_match_drawn_player(const hh_match* match, uint32_t slot,
+                                       const hh_tracking_sample* newest, hh_pose* origin,
+                                       hh_pose* head, hh_pose* left, hh_pose* right);
+/* The same for bodies: poses as of hh_world_body_poses. A body that is held goes with its hands. */
+HH_API hh_result hh_match_drawn_bodies(const hh_match* match, const hh_body* bodies, size_t count,
+                                       hh_pose* poses);
 
 typedef enum hh_match_event_state {
     /* It happened in a tick that may change. Each such event is confirmed or retracted later. */

@@ -207,6 +207,25 @@ class Match {
                                           &out->hands[HH_RIGHT]);
         });
     }
+    // Poses to draw, world.
+    struct DrawnPlayer {
+        hh_pose origin{};                // camera rig
+        hh_pose head{};                  // pose between the eyes
+        std::array<hh_pose, 2> hands{};  // wrists, indexed by hh_side
+    };
+    // See hh_match_drawn_player. `newest`: null, or the own devices now.
+    Maybe<DrawnPlayer> drawn_player(std::uint32_t slot, const Sample* newest = nullptr) const {
+        return value<DrawnPlayer>([&](auto* out) {
+            return hh_match_drawn_player(match_, slot, newest, &out->origin, &out->head,
+                                         &out->hands[HH_LEFT], &out->hands[HH_RIGHT]);
+        });
+    }
+    // Poses of as many bodies; see hh_match_drawn_bodies.
+    Status drawn_bodies(std::span<const Body> bodies, std::span<hh_pose> poses) const {
+        return poses.size() < bodies.size()
+                   ? HH_ERROR_CAPACITY
+                   : hh_match_drawn_bodies(match_, bodies.data(), bodies.size(), poses.data());
+    }
     // Events of the last call that stepped. Valid until the next one.
     std::span<const hh_match_event> events() const {
         const hh_match_event* events = nullptr;

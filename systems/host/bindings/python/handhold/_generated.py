@@ -1418,6 +1418,8 @@ FUNCTIONS = {
     "hh_match_needs_state": (c_int32, [c_void_p, c_uint32, POINTER(c_uint8)]),
     "hh_match_hash": (c_int32, [c_void_p, c_uint64, POINTER(c_uint64)]),
     "hh_match_shown_offsets": (c_int32, [c_void_p, c_uint32, POINTER(Vec3), POINTER(Vec3), POINTER(Vec3)]),
+    "hh_match_drawn_player": (c_int32, [c_void_p, c_uint32, POINTER(TrackingSample), POINTER(Pose), POINTER(Pose), POINTER(Pose), POINTER(Pose)]),
+    "hh_match_drawn_bodies": (c_int32, [c_void_p, POINTER(Body), c_size_t, POINTER(Pose)]),
     "hh_match_events_sized": (c_int32, [c_void_p, POINTER(POINTER(MatchEvent)), POINTER(c_size_t), c_size_t]),
     "hh_default_match_stats_sized": (c_int32, [POINTER(MatchStats), c_size_t]),
     "hh_match_get_stats": (c_int32, [c_void_p, POINTER(MatchStats)]),

@@ -1,0 +1,167 @@
+// hh_match_drawn_player and hh_match_drawn_bodies: pictures of displays of any rate.
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/systems/host/match_table.hpp"
+
+namespace handhold::drawn_poses_test {
+namespace {
+
+using test::k_step_s;
+using test::TableMachine;
+
+constexpr double k_ball_mps = 0.8;
+
+// A client on its own plays for half a second, which is less than it may be ahead of the server,
+// and calls `look(picture's time, tick's time)` for each picture.
+template <typename Look>
+void play(TableMachine& machine, double hz, const Look& look) {
+    const auto pictures = static_cast<int>(0.5 * hz);
+    double time_s = 0.0;
+    for (int picture = 1; picture <= pictures; ++picture) {
+        time_s += 1.0 / hz;
+        const std::uint32_t due = *machine.match.ticks_due(1.0 / hz);
+        for (std::uint32_t i = 0; i < due; ++i) {
+            const double end_s = machine.scene.world.time_s() + k_step_s;
+            const hh::Sample sample = test::table_sample(0, end_s);
+            hh_match_input input = hh::match_input({&sample, 1});
+            input.is_hidden = i + 1 < due ? 1 : 0;
+            ASSERT_TRUE(*machine.match.advance(input));
+        }
+        if (machine.scene.world.time_s() > 0.1) {
+            look(time_s, machine.scene.world.time_s());
+        }
+    }
+}
+
+class DrawnPosesAtRate : public testing::TestWithParam<double> {
+  protected:
+    DrawnPosesAtRate() : machine_(HH_MATCH_CLIENT, 0) {}
+    hh::World& world() { return machine_.scene.world; }
+
+    TableMachine machine_;
+};
+
+// In every picture a ball at a constant speed has moved on by as much as time has, although the
+// world's own ball stands still or moves twice as far in some of them.
+TEST_P(DrawnPosesAtRate, BodiesMoveEvenly) {
+    const hh::Body ball = machine_.scene.ball;
+    ASSERT_TRUE(world().teleport(ball, hh::pose_at({0.3, 3.0, -3.0})));
+    ASSERT_TRUE(world().set_velocity(ball, {0.0, 0.0, k_ball_mps}));
+    std::vector<double> drawn_m;
+    std::vector<double> stepped_m;
+    play(machine_, GetParam(), [&](double picture_s, double tick_s) {
+        hh_pose pose{};
+        ASSERT_TRUE(machine_.match.drawn_bodies({&ball, 1}, {&pose, 1}));
+        const double stepped = world().pose(ball)->position.z;
+        // The picture's time, less a tick.
+        EXPECT_NEAR(pose.position.z, stepped + k_ball_mps * (picture_s - k_step_s - tick_s), 1e-6);
+        drawn_m.push_back(pose.position.z);
+        stepped_m.push_back(stepped);
+    });
+    ASSERT_GT(drawn_m.size(), 20U);
+    const double even_m = k_ball_mps / GetParam();
+    double most_uneven_m = 0.0;
+    for (std::size_t i = 1; i < drawn_m.size(); ++i) {
+        EXPECT_NEAR(drawn_m[i] - drawn_m[i - 1], even_m, 1e-6) << i;
+        most_uneven_m = std::max(most_uneven_m, std::abs(stepped_m[i] - stepped_m[i - 1] - even_m));
+    }
+    if (GetParam() != 90.0) {
+        EXPECT_GT(most_uneven_m, 0.2 * even_m);  // else this run proves nothing
+    }
+}
+
+TEST_P(DrawnPosesAtRate, HeadAndEmptyHandsAreWhereTheDevicesAre) {
+    int empty = 0;
+    int holding = 0;
+    play(machine_, GetParam(), [&](double picture_s, double /*tick_s*/) {
+        hh::Sample newest = test::table_sample(0, picture_s);
+        newest.head.position.y += 0.3;  // where no tick has been
+        const auto drawn = machine_.match.drawn_player(0, &newest);
+        const auto without = machine_.match.drawn_player(0);
+        ASSERT_TRUE(drawn);
+        ASSERT_TRUE(without);
+        const auto expect_at = [](const hh_pose& pose, const hh::Pose& wanted, double within_m) {
+            EXPECT_LT(hh::length(pose.position - wanted.position), within_m);
+        };
+        expect_at(drawn->head, drawn->origin * newest.head, 1e-12);
+        EXPECT_GT(hh::length(drawn->head.position - without->head.position), 0.2);
+        const hh_player_pose stepped = *world().pose(machine_.scene.players[0]);
+        for (const hh_side side : {HH_LEFT, HH_RIGHT}) {
+            if (stepped.hands[side].grip == HH_GRIP_NONE) {
+                ++empty;
+                // The shown wrist is beside the tracked one where surfaces hold it off.
+                const double off_m = hh::length(stepped.hands[side].shown.position -
+                                                stepped.hands[side].tracked.position);
+                expect_at(drawn->hands[side], drawn->origin * newest.hands[side], off_m + 1e-6);
+            } else {
+                ++holding;
+                expect_at(drawn->hands[side], without->hands[side], 1e-12);
+                expect_at(drawn->hands[side], stepped.hands[side].shown, 0.02);
+            }
+        }
+    });
+    EXPECT_GT(empty, 5);
+    EXPECT_GT(holding, 5);
+}
+
+TEST_P(DrawnPosesAtRate, PicturesChangeNothing) {
+    TableMachine other(HH_MATCH_CLIENT, 0);
+    play(machine_, GetParam(), [&](double picture_s, double /*tick_s*/) {
+        const hh::Sample newest = test::table_sample(0, picture_s);
+        ASSERT_TRUE(machine_.match.drawn_player(0, &newest));
+        ASSERT_TRUE(machine_.match.drawn_player(1));
+    });
+    play(other, GetParam(), [](double, double) {});
+    EXPECT_EQ(world().hash(), other.scene.world.hash());
+}
+
+INSTANTIATE_TEST_SUITE_P(Hz, DrawnPosesAtRate, testing::Values(60.0, 72.0, 90.0, 120.0, 144.0));
+
+// A tick's motion of the camera rig is drawn in between; that of a snap turn is not.
+TEST(DrawnPoses, SnapTurnsAreDrawnAtOnce) {
+    TableMachine machine(HH_MATCH_CLIENT, 0);
+    std::vector<double> turned;
+    for (int picture = 0; picture < 24; ++picture) {
+        const std::uint32_t due = *machine.match.ticks_due(1.0 / 144.0);
+        for (std::uint32_t i = 0; i < due; ++i) {
+            hh::Sample sample = test::table_sample(0, machine.scene.world.time_s() + k_step_s);
+            sample.grab[HH_LEFT] = sample.grab[HH_RIGHT] = 0;
+            hh_match_input input = hh::match_input({&sample, 1});
+            input.commands.snap_turns = picture == 12 || picture == 13 ? 1 : 0;
+            ASSERT_TRUE(*machine.match.advance(input));
+        }
+        if (picture > 4) {
+            const hh_pose origin = machine.match.drawn_player(0)->origin;
+            turned.push_back(2.0 * std::atan2(origin.rotation.y, origin.rotation.w));
+        }
+    }
+    const double all = turned.back();
+    ASSERT_GT(all, 0.3);
+    for (const double one : turned) {
+        const double steps = one / (all / std::max(1.0, std::round(all / 0.7853981633974483)));
+        EXPECT_NEAR(steps, std::round(steps), 1e-6) << one;
+    }
+}
+
+TEST(DrawnPoses, AreThereAfterTheFirstShownTick) {
+    TableMachine machine(HH_MATCH_CLIENT, 0);
+    EXPECT_EQ(machine.match.drawn_player(0).status().result(), HH_ERROR_STATE);
+    const hh::Sample sample = test::table_sample(0, k_step_s);
+    hh_match_input input = hh::match_input({&sample, 1});
+    input.is_hidden = 1;
+    ASSERT_TRUE(*machine.match.advance(input));
+    EXPECT_EQ(machine.match.drawn_player(0).status().result(), HH_ERROR_STATE);
+    input.is_hidden = 0;
+    ASSERT_TRUE(*machine.match.advance(input));
+    ASSERT_TRUE(machine.match.drawn_player(0));
+    EXPECT_EQ(machine.match.drawn_player(2).status().result(), HH_ERROR_VALUE);
+    const TableMachine server(HH_MATCH_SERVER);
+    EXPECT_EQ(server.match.drawn_player(0).status().result(), HH_ERROR_STATE);
+}
+
+}  // namespace
+}  // namespace handhold::drawn_poses_test
