@@ -6,13 +6,18 @@ namespace {
 // A critically damped offset x from rest is x0 (1 + w t) exp(-w t): a twentieth at w t = 4.74.
 constexpr double k_rate_per_s = 4.74 / ShownOffsets::k_shown_correction_s;
 
-// One step of x'' = -2 w x' - w^2 x in closed form. A truncated series replaces exp(-w t).
+// One step of x'' = -2 w x' - w^2 x in closed form, no longer than k_most_mps allows. A truncated
+// series replaces exp(-w t).
 void settle(double dt_s, Vec3& offset, Vec3& rate) {
     const double x = k_rate_per_s * dt_s;
     const double decay = 1.0 / (1.0 + x + x * x / 2.0 + x * x * x / 6.0);
     const Vec3 push = rate + k_rate_per_s * offset;
-    offset = decay * (offset + dt_s * push);
-    rate = decay * (rate - x * push);
+    const Vec3 step = decay * (offset + dt_s * push) - offset;
+    const double most_m = ShownOffsets::k_most_mps * dt_s;
+    const double length_m = step.norm();
+    const double share = length_m > most_m ? most_m / length_m : 1.0;
+    offset += share * step;
+    rate = share < 1.0 ? Vec3(step * (share / dt_s)) : Vec3(decay * (rate - x * push));
 }
 
 void add_correction(const Vec3& before, const Vec3& after, Vec3& offset) {

@@ -1,5 +1,7 @@
 // `handhold-lab` as an external program: exit status, messages, files.
+#include <cmath>
 #include <cstdlib>
+#include <fstream>
 
 #include <nlohmann/json.hpp>
 #include <sys/wait.h>
@@ -82,6 +84,53 @@ TEST_F(LabCommand, WritesCompleteFilesForEveryScene) {
         }
         EXPECT_EQ(parse_rows(text_of(csv)).size(), 3 * (figures["bodies"].size() + grabs));
     }
+}
+
+// Exit status 0 says that pairs shared, threw and held each other where they should.
+TEST_F(LabCommand, PlaysAMatchOfPairsWhoDoDifferentThings) {
+    const std::string match = "match --scene together --rtt-ms 60 --jitter-ms 10 --loss 0.02 ";
+    ASSERT_EQ(run(match + "--peers 4 --seconds 3.5 " + json()), 0) << err_;
+    const auto sharing = nlohmann::json::parse(text_of(folder_ / "a.json"));
+    EXPECT_EQ(sharing.at("hashes_different"), 0);
+    EXPECT_EQ(sharing.at("throws"), 4);  // one a player
+    EXPECT_GT(sharing.at("shared_holds"), 180);
+    EXPECT_EQ(sharing.at("player_holds"), 0);
+    ASSERT_EQ(run(match + "--first-pair 3 --peers 2 --seconds 5.5 " + json()), 0) << err_;
+    const auto holding = nlohmann::json::parse(text_of(folder_ / "a.json"));
+    EXPECT_GT(holding.at("player_holds"), 45);
+    // Before anybody holds another player.
+    EXPECT_EQ(run(match + "--first-pair 3 --peers 2 --seconds 3.5 " + json()), 3);
+    EXPECT_NE(err_.find("nobody held another player"), std::string::npos);
+}
+
+// A person who waves, and presses a button: there a rock is waiting.
+TEST_F(LabCommand, PlaysAMatchOfRecordedPeople) {
+    std::ofstream csv(folder_ / "person.csv");
+    csv << "t,hx,hy,hz,hqx,hqy,hqz,hqw,lx,ly,lz,lqx,lqy,lqz,lqw,lbtn,ltrig,"
+           "rx,ry,rz,rqx,rqy,rqz,rqw,rbtn,rtrig\n";
+    for (int i = 0; i < 270; ++i) {
+        const double t = i / 90.0;
+        csv << t << ",0.5,1.6,0.2,0,0,0,1," << 0.2 + 0.2 * std::sin(5.0 * t)
+            << ",1.2,-0.2,0,0,0,1,0,0,0.8,1.1,-0.3,0,0,0,1," << (i > 120 ? 2 : 0) << ",0\n";
+    }
+    csv.close();
+    ASSERT_EQ(run("match --scene recorded --peers 2 --rtt-ms 100 --jitter-ms 0 --seconds 7 "
+                  "--input \"" +
+                  (folder_ / "person.csv").string() + "\" " + json()),
+              0)
+        << err_;
+    const auto figures = nlohmann::json::parse(text_of(folder_ / "a.json"));
+    EXPECT_GE(figures.at("grips"), 2);
+    // The round trip, and packets that wait for a tick on their way.
+    EXPECT_GE(figures.at("others_age_ms").at("median"), 100.0);
+    EXPECT_LE(figures.at("others_age_ms").at("median"), 150.0);
+    EXPECT_GT(figures.at("others_shown_error_mm").at("p95"), 1.0);
+
+    EXPECT_EQ(run("match --scene recorded " + json()), 1);
+    EXPECT_NE(err_.find("--input"), std::string::npos);
+    EXPECT_EQ(run("match --scene crawl --input x.csv " + json()), 1);
+    EXPECT_EQ(run("match --scene recorded --input absent.csv " + json()), 2);
+    EXPECT_NE(err_.find("absent.csv"), std::string::npos);
 }
 
 // Needs the wall's clock. Exit status 0 says that hashes and own hands were compared and are equal,

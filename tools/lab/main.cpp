@@ -17,7 +17,7 @@
 #include "tools/lab/lab_scene.hpp"
 #include "tools/lab/match_command.hpp"
 #include "tools/lab/match_film.hpp"
-#include "tools/lab/match_scene.hpp"
+#include "tools/lab/match_hands.hpp"
 #include "tools/lab/recorded_grips.hpp"
 #include "tools/lab/shown_body_command.hpp"
 #include "tools/lab/socket_match_command.hpp"
@@ -150,6 +150,10 @@ void add_match_options(CLI::App& match, lab::MatchOptions& options) {
     match.add_option("--scene", options.scene, "What the players do")
         ->check(CLI::IsMember(strings(lab::match_scene_names())));
     match.add_option("--peers", options.peers, "Players")->check(CLI::Range(1, 16));
+    match.add_option("--input", options.inputs,
+                     "With --scene recorded: recorded sessions (.csv), one a player");
+    match.add_option("--first-pair", options.first_pair, "With --scene together: its task, 0 to 3")
+        ->check(CLI::Range(0, 3));
     match.add_option("--rtt-ms", options.rtt_ms, "Round trip without jitter")
         ->check(number_in(0.0, 1000.0));
     match.add_option("--jitter-ms", options.jitter_ms, "Largest extra delay, each way")

@@ -73,6 +73,9 @@ Json json_of(const MatchOptions& options, const MatchFigures& figures) {
         {"kbps_down", mean_and_p99_of(figures.down_kbps)},
         {"input_bytes", mean_and_p99_of(figures.input_bytes)},
         {"largest_packet_bytes", figures.largest_packet},
+        {"others_age_ms",
+         {{"median", k_mm_per_m * figures.others_age_s.quantile(0.5)},
+          {"p95", k_mm_per_m * figures.others_age_s.quantile(0.95)}}},
         {"others_hand_error_mm",
          {{"median", k_mm_per_m * figures.others_hand_m.quantile(0.5)},
           {"p95", k_mm_per_m * figures.others_hand_m.quantile(0.95)}}},
@@ -84,8 +87,36 @@ Json json_of(const MatchOptions& options, const MatchFigures& figures) {
           {"own_view_shared_load",
            jumps_of(figures.own_view_shared_raw_m, figures.own_view_shared_m)},
           {"others_hands", jumps_of(figures.others_jump_raw_m, figures.others_jump_m)}}},
-        {"grips", figures.grips},
-        {"shared_holds", figures.shared_holds}};
+        {"grips", figures.holds.grips},
+        {"shared_holds", figures.holds.shared_holds},
+        {"throws", figures.holds.throws},
+        {"player_holds", figures.holds.player_holds}};
+}
+
+// What a run must have to prove anything; null: it has all.
+const char* missing_in(const MatchFigures& figures, const MatchSetting& setting) {
+    if (figures.hashes_compared == 0 || figures.holds.grips == 0 ||
+        figures.rollback_ticks.values.empty()) {
+        return "nobody gripped, went back or compared a hash";
+    }
+    if (setting.scene != "together") {
+        return nullptr;
+    }
+    bool shares = false;
+    bool holds_players = false;
+    for (std::size_t pair = 0; pair < setting.players / 2; ++pair) {
+        const bool is_hold = task_of_pair(setting, pair) == PairTask::hold_each_other;
+        holds_players = holds_players || is_hold;
+        shares = shares || !is_hold;
+    }
+    if (figures.holds.throws == 0) {
+        return "nobody threw";
+    }
+    if (shares && figures.holds.shared_holds == 0) {
+        return "no two players held one body";
+    }
+    return holds_players && figures.holds.player_holds == 0 ? "nobody held another player"
+                                                            : nullptr;
 }
 
 }  // namespace
@@ -103,11 +134,24 @@ int match_command(const MatchOptions& options) {
                                      options.seconds, options.freeze_s, options.seed},
                                     options.json);
     }
+    if ((options.scene == "recorded") == options.inputs.empty()) {
+        std::fprintf(stderr,
+                     "handhold-lab: --input: expected with --scene recorded, and only there\n");
+        return k_exit_usage;
+    }
     set_stage_clock(options.threads == 1 ? StageClock::thread_cpu : StageClock::wall);
     set_thread_count(options.threads);
     MatchRunOptions run;
-    run.scene = options.scene;
-    run.peers = options.peers;
+    run.setting.scene = options.scene;
+    run.setting.players = static_cast<std::size_t>(options.peers);
+    run.setting.first_pair = static_cast<std::size_t>(options.first_pair);
+    for (const std::filesystem::path& input : options.inputs) {
+        Result<Recording> recording = load_recording(input);
+        if (!recording) {
+            return refuse(recording.error());
+        }
+        run.setting.recordings.push_back(std::move(recording.value()));
+    }
     run.network = network;
     run.seconds = options.seconds;
     run.packets_per_tick = options.packets;
@@ -123,9 +167,8 @@ int match_command(const MatchOptions& options) {
                      static_cast<unsigned long long>(figures.hashes_compared));
         return k_exit_differs;
     }
-    if (figures.hashes_compared == 0 || figures.grips == 0 ||
-        figures.rollback_ticks.values.empty()) {
-        std::fprintf(stderr, "handhold-lab: nobody gripped, went back or compared a hash\n");
+    if (const char* const fault = missing_in(figures, run.setting)) {
+        std::fprintf(stderr, "handhold-lab: %s\n", fault);
         return k_exit_differs;
     }
     return 0;

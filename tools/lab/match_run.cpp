@@ -8,7 +8,6 @@
 #include "engine/core/profile.hpp"
 #include "systems/match/client_session.hpp"
 #include "systems/match/server_session.hpp"
-#include "tools/lab/holds_count.hpp"
 #include "tools/lab/match_scene.hpp"
 
 namespace handhold::lab {
@@ -17,7 +16,6 @@ namespace {
 constexpr double k_match_tick_s = 1.0 / 90.0;
 constexpr double k_warm_s = 2.0;
 constexpr double k_look_s = 1.0 / 360.0;  // how often the server looks at its packets
-constexpr double k_device_s = 1.0 / 97.0;
 constexpr std::size_t k_kept = ClientSession::k_window;
 
 double us_since(std::int64_t begin_ns) {
@@ -59,8 +57,9 @@ bool shares_a_body(const MatchWorld& match, std::size_t slot) {
 struct Peer {
     std::unique_ptr<MatchScene> scene;
     std::unique_ptr<ClientSession> session;
+    std::unique_ptr<MatchHands> hands;
     TickSampler devices;
-    double next_sample_s = 0.0;
+    double sampled_until_s = -1.0;
     double phase_s = 0.0;  // phase of the frames
     MatchTick compared_until = 0;
     std::uint64_t frames = 0;
@@ -77,12 +76,13 @@ class MatchRun {
     explicit MatchRun(const MatchRunOptions& options)
         : options_(options),
           network_(options.network, options.seed),
-          scene_(options.scene, static_cast<std::size_t>(options.peers)),
+          scene_(options.setting),
           server_(std::make_unique<ServerSession>(scene_.match(k_match_tick_s), 0.0)) {
         for (std::size_t i = 0; i < peer_count(); ++i) {
             peers_.push_back(std::make_unique<Peer>());
             Peer& peer = *peers_.back();
-            peer.scene = std::make_unique<MatchScene>(options.scene, peer_count());
+            peer.scene = std::make_unique<MatchScene>(options.setting);
+            peer.hands = std::make_unique<MatchHands>(options.setting, i);
             peer.session = std::make_unique<ClientSession>(peer.scene->match(k_match_tick_s), i);
             peer.phase_s =
                 k_match_tick_s * static_cast<double>(i) / static_cast<double>(peer_count());
@@ -110,13 +110,11 @@ class MatchRun {
             figures_.stalls += peer->session->counts().waits;
         }
         figures_.confirmed_ticks = server_->counts().ticks;
-        figures_.grips = holds_.grips;
-        figures_.shared_holds = holds_.shared_holds;
         return std::move(figures_);
     }
 
   private:
-    std::size_t peer_count() const { return static_cast<std::size_t>(options_.peers); }
+    std::size_t peer_count() const { return options_.setting.players; }
     std::size_t place_of_server() const { return peer_count(); }
     bool is_warm() const { return now_s_ > k_warm_s; }
     bool sends(std::uint64_t frame) const {
@@ -148,7 +146,7 @@ class MatchRun {
             }
             server_hashes_.push_back(hash_simulated(scene_.world()));
             note_server();
-            holds_.add(scene_.world());
+            figures_.holds.add(scene_.world());
             if (is_warm()) {
                 figures_.server_tick_us.add(server_us_);
                 figures_.filled += server_->counts().filled - filled;
@@ -179,11 +177,14 @@ class MatchRun {
         }
     }
 
+    // Devices say where they are at the tick's end, as headsets do: the sample after it is known.
     MatchInput own_input(std::size_t i) {
         Peer& peer = *peers_[i];
         const double start_s = static_cast<double>(peer.session->now()) * k_match_tick_s;
-        for (; peer.next_sample_s <= start_s + k_match_tick_s; peer.next_sample_s += k_device_s) {
-            peer.devices.add(devices_at(options_.scene, i, peer.next_sample_s));
+        while (peer.sampled_until_s <= start_s + k_match_tick_s) {
+            const TrackingSample sample = peer.hands->next();
+            peer.devices.add(sample);
+            peer.sampled_until_s = sample.t_s;
         }
         return normalised(peer.devices.take(start_s, start_s + k_match_tick_s, {}));
     }
@@ -226,10 +227,22 @@ class MatchRun {
                 figures_.rollback_us.add(us);
             }
             measure_input(peer, own);
+            measure_ages(i);
         }
         PointsOfAll& stepped = peer.first_stepped[tick % k_kept];
         note_points(peer.scene->match(k_match_tick_s), stepped);
         peer.first_shown[tick % k_kept] = moved_by(stepped, peer.session->shown_offsets());
+    }
+
+    void measure_ages(std::size_t i) {
+        const ClientSession& session = *peers_[i]->session;
+        for (std::size_t slot = 0; slot < peer_count(); ++slot) {
+            const MatchTick newest = session.inputs_of(slot).last_real();
+            if (slot != i && newest > 0 && newest < session.now()) {
+                figures_.others_age_s.add(k_match_tick_s *
+                                          static_cast<double>(session.now() - newest));
+            }
+        }
     }
 
     void measure_input(Peer& peer, const MatchInput& own) {
@@ -319,7 +332,6 @@ class MatchRun {
     std::vector<std::array<bool, k_most_match_players>> server_shares_;
     double now_s_ = 0.0;
     double server_us_ = 0.0;  // since the last confirmed tick
-    HoldsCount holds_;
     MatchFigures figures_;
 };
 

@@ -1,80 +1,57 @@
 #include "tools/lab/match_scene.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
+#include <numbers>
+#include <string>
 
 #include "components/player.hpp"
 
 namespace handhold::lab {
 namespace {
 
-constexpr double k_between_m = 2.0;  // neighbours of "crawl", pairs of "bars"
-constexpr double k_bar_height_m = 1.2;
-constexpr double k_away_from_bar_m = 0.9;
-
 std::string name_of_player(std::size_t player) { return "player" + std::to_string(player); }
 
-Vec3 origin_of(std::string_view scene, std::size_t player) {
-    if (scene == "crawl") {
-        return {k_between_m * static_cast<double>(player), 0.0, 0.0};
+// Distance of neighbours, or of pairs.
+double between_m(const MatchSetting& setting) {
+    return setting.scene == "together" || setting.scene == "recorded" ? 4.0 : 2.0;
+}
+
+Vec3 place_of_pair(const MatchSetting& setting, std::size_t pair) {
+    return {between_m(setting) * static_cast<double>(pair), 0.0, 0.0};
+}
+
+Pose origin_of(const MatchSetting& setting, std::size_t player) {
+    const Vec3 alone(between_m(setting) * static_cast<double>(player), 0.0, 0.0);
+    if (setting.scene == "crawl") {
+        return {alone, Quat::Identity()};
     }
-    const double side = player % 2 == 0 ? 1.0 : -1.0;
-    const std::size_t pair = player / 2;
-    return {k_between_m * static_cast<double>(pair), 0.0, side * k_away_from_bar_m};
-}
-
-// Tremor of hands: about 9 Hz, another one for each axis of each device.
-Vec3 hand_tremor(std::size_t player, std::size_t side, double t_s) {
-    constexpr double k_size_m = 0.0003;
-    Vec3 out;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double number = 7.0 * static_cast<double>(player) + 3.0 * static_cast<double>(side) +
-                              static_cast<double>(axis);
-        out[axis] = k_size_m * std::sin((50.0 + 3.7 * std::fmod(1.7 * number, 4.0)) * t_s + number);
+    if (setting.scene == "recorded") {  // the head begins above its place
+        const Recording& recording = setting.recordings[player % setting.recordings.size()];
+        const hh_vec3& head = recording.samples.front().head.position;
+        return {std::isfinite(head.x) ? Vec3(alone - Vec3(head.x, 0.0, head.z)) : alone,
+                Quat::Identity()};
     }
-    return out;
-}
-
-Vec3 palm_of(std::size_t side) {
-    const Vec3 right = Tuning{}.hand.palm_center_m;
-    return {side == 0 ? -right.x() : right.x(), right.y(), right.z()};
-}
-
-void crawl(std::size_t player, double t, TrackingSample& sample) {
-    const auto number = static_cast<double>(player);
-    sample.head_ps = {Vec3(0.02 * std::sin(t + number), 0.7, 0.0), Quat::Identity()};
-    for (std::size_t side = 0; side < k_hand_count; ++side) {
-        const double out = side == 0 ? -1.0 : 1.0;
-        const Vec3 rest = Vec3(0.25 * out, 0.055, -0.3) - palm_of(side);
-        const Vec3 wave(std::sin(2.0 * t + number), 0.0, out * std::sin(3.0 * t));
-        const double phase = t + 0.35 * static_cast<double>(side) + 0.1 * number;
-        sample.controllers[side].controller_ps = {rest + 0.1 * wave, Quat::Identity()};
-        sample.controllers[side].grab = std::fmod(phase, 0.9) > 0.3;
+    const bool is_first = player % 2 == 0;
+    const Vec3 pair = place_of_pair(setting, player / 2);
+    if (task_of_pair(setting, player / 2) == PairTask::hold_each_other) {  // face to face
+        return {pair + Vec3(0.0, 0.0, is_first ? k_face_to_face_m : -k_face_to_face_m),
+                rotation_about(Vec3::UnitY(), is_first ? 0.0 : std::numbers::pi)};
     }
-}
-
-void pull_bar(std::size_t player, double t, TrackingSample& sample) {
-    const double end = player % 2 == 0 ? -0.6 : 0.6;  // the bar's end, from the player
-    const auto number = static_cast<double>(player);
-    sample.head_ps = {Vec3(0.03 * std::sin(1.3 * t + number), 1.6, -0.1 * end),
-                      rotation_about(Vec3::UnitY(), 0.2 * std::sin(0.9 * t))};
-    const double on = std::clamp((t - 0.8) / 0.4, 0.0, 1.0);
-    const Vec3 pull =
-        0.12 * on *
-        Vec3(std::sin(3.0 * t + number), 0.4 * std::sin(2.0 * t), std::sin(4.0 * t + number));
-    const Vec3 rest = Vec3(0.0, k_bar_height_m + 0.035, end) - palm_of(1);
-    sample.controllers[1].controller_ps = {rest + pull, Quat::Identity()};
-    sample.controllers[1].grab = t > 0.3;
-    sample.controllers[0].controller_ps = {
-        Vec3(-0.45, 1.25 + 0.04 * std::sin(2.2 * t), -0.25 * end), Quat::Identity()};
+    return {pair + Vec3(0.0, 0.0, is_first ? k_from_pair_m : -k_from_pair_m), Quat::Identity()};
 }
 
 }  // namespace
 
-std::vector<std::string_view> match_scene_names() { return {"crawl", "bars"}; }
+void MatchScene::add_free(const std::string& name, ShapeId shape, double mass_kg,
+                          const Vec3& at_ws) {
+    add_body(world_, {name,
+                      {BodyKind::free, mass_kg, solid_inertia(shapes_.at(shape), mass_kg), 0.2},
+                      {at_ws, Quat::Identity()},
+                      {},
+                      shape});
+}
 
-MatchScene::MatchScene(std::string_view name, std::size_t players) : players_(players) {
+void MatchScene::add_floor() {
     add_body(world_, {"floor",
                       {},
                       {Vec3::Zero(), Quat::Identity()},
@@ -89,26 +66,62 @@ MatchScene::MatchScene(std::string_view name, std::size_t players) : players_(pl
                           {},
                           rock});
     }
-    if (name == "bars") {
-        const ShapeId bar = shapes_.add_box(Vec3(0.03, 0.03, 0.4));
-        for (std::size_t pair = 0; pair < (players + 1) / 2; ++pair) {
-            add_body(world_, {"bar" + std::to_string(pair),
-                              {BodyKind::free, 4.0, solid_inertia(shapes_.at(bar), 4.0), 0.2},
-                              {Vec3(k_between_m * static_cast<double>(pair), k_bar_height_m, 0.0),
-                               Quat::Identity()},
-                              {},
-                              bar});
-        }
+}
+
+void MatchScene::add_pair(PairTask task, std::size_t pair, const Vec3& at_ws) {
+    const Vec3 middle_ws = at_ws + Vec3(0.0, k_pair_height_m, 0.0);
+    const std::string number = std::to_string(pair);
+    if (task == PairTask::pull_bar) {
+        add_free("bar" + number, shapes_.add_box(Vec3(k_pair_half_m, k_pair_half_m, 0.4)), 4.0,
+                 middle_ws);
+    } else if (task == PairTask::hand_over) {
+        add_free("tool" + number, shapes_.add_box(Vec3(k_pair_half_m, k_pair_half_m, 0.4)), 1.5,
+                 middle_ws);
+    } else if (task == PairTask::swing_door) {
+        const std::string name = "door" + number;
+        add_free(name, shapes_.add_box(Vec3(k_board_half_m, k_pair_half_m, k_board_half_m)), 20.0,
+                 middle_ws);
+        Joint hinge;
+        hinge.kind = JointKind::hinge;
+        hinge.b = find_by_name(world_, name);
+        hinge.limited = true;
+        hinge.lower = -0.8;
+        hinge.upper = 0.8;
+        const Pose frame_ws = {middle_ws - Vec3(k_board_half_m, 0.0, 0.0),
+                               rotation_between(Vec3::UnitX(), Vec3::UnitZ())};
+        add_joint(world_, {"hinge" + number, joint_at(world_, hinge, frame_ws)});
+    }
+}
+
+MatchScene::MatchScene(const MatchSetting& setting) : players_(setting.players) {
+    add_floor();
+    const bool has_pairs = setting.scene == "bars" || setting.scene == "together";
+    for (std::size_t pair = 0; has_pairs && pair < (players_ + 1) / 2; ++pair) {
+        add_pair(task_of_pair(setting, pair), pair, place_of_pair(setting, pair));
     }
     const ShapeId head = shapes_.add_sphere(tuning_.head.radius_m);
-    for (std::size_t i = 0; i < players; ++i) {
+    const ShapeId ball = shapes_.add_sphere(k_ball_radius_m);
+    const ShapeId grip_rock = shapes_.add_sphere(k_grip_rock_m);
+    for (std::size_t i = 0; i < players_; ++i) {
         PlayerDescription description;
         const std::string player_name = name_of_player(i);
         description.name = player_name;
-        description.origin_ws.position = origin_of(name, i);
+        description.origin_ws = origin_of(setting, i);
         description.head_shape = head;
         for (const Entity hand : add_player(world_, description).hands) {
             world_.controller_to_hand.add(hand, {});
+        }
+        if (setting.scene == "together") {
+            add_free("ball" + std::to_string(i), ball, 0.2,
+                     transform_point(description.origin_ws, ball_ps(i)));
+        }
+        if (setting.scene == "recorded") {
+            int number = 0;
+            for (const Vec3& place_ps :
+                 grip_rocks_ps(setting.recordings[i % setting.recordings.size()])) {
+                add_free("grip" + std::to_string(i) + "_" + std::to_string(number++), grip_rock,
+                         1.0, transform_point(description.origin_ws, place_ps));
+            }
         }
     }
     grip_meshes_ = GripMeshLibrary(shapes_);
@@ -122,20 +135,6 @@ MatchWorld MatchScene::match(double tick_s) {
         out.players[i] = persistent_id_from_name(name_of_player(i));
     }
     return out;
-}
-
-TrackingSample devices_at(std::string_view scene, std::size_t player, double t_s) {
-    TrackingSample sample;
-    sample.t_s = t_s;
-    if (scene == "crawl") {
-        crawl(player, t_s, sample);
-    } else {
-        pull_bar(player, t_s, sample);
-    }
-    for (std::size_t side = 0; side < k_hand_count; ++side) {
-        sample.controllers[side].controller_ps.position += hand_tremor(player, side, t_s);
-    }
-    return sample;
 }
 
 }  // namespace handhold::lab

@@ -69,6 +69,8 @@ Json json_of(const SocketMatchOptions& options, const SocketMatchFigures& figure
           {"p95", k_mm_per_m * figures.others_hand_m.quantile(0.95)}}},
         {"grips", figures.holds.grips},
         {"shared_holds", figures.holds.shared_holds},
+        {"throws", figures.holds.throws},
+        {"player_holds", figures.holds.player_holds},
         {"join_s", spread_of(figures.join_s)},
         {"freeze",
          {{"seconds", options.freeze_s},

@@ -42,7 +42,7 @@ TEST(ShownOffsets, DrawnPositionsDoNotJumpWhenAGuessIsCorrected) {
 TEST(ShownOffsets, ACorrectionIsShownButForATwentiethAfterItsTime) {
     MatchScene scene;
     ShownOffsets shown;
-    const Vec3 shift_ws(0.0, 0.2, 0.0);
+    const Vec3 shift_ws(0.0, 0.02, 0.0);
     correct(scene, shown, shift_ws);
     double last_m = shift_ws.norm();
     for (double t_s = 0.0; t_s < ShownOffsets::k_shown_correction_s; t_s += k_tick_s) {
@@ -53,6 +53,26 @@ TEST(ShownOffsets, ACorrectionIsShownButForATwentiethAfterItsTime) {
     }
     EXPECT_LE(last_m, 0.05 * shift_ws.norm());
     EXPECT_GT(last_m, 0.01 * shift_ws.norm());
+}
+
+TEST(ShownOffsets, ALargeCorrectionMovesAtALimitedSpeed) {
+    MatchScene scene;
+    ShownOffsets shown;
+    const Vec3 shift_ws(0.3, 0.0, 0.1);
+    correct(scene, shown, shift_ws);
+    Vec3 last = shown.offsets()[k_moved].head;
+    double fastest_mps = 0.0;
+    int ticks = 0;
+    for (; last.norm() > 0.05 * shift_ws.norm() && ticks < 90; ++ticks) {
+        shown.advance(k_tick_s);
+        const Vec3 now = shown.offsets()[k_moved].head;
+        EXPECT_LT(now.cross(shift_ws).norm(), 1e-12);  // straight back
+        fastest_mps = std::max(fastest_mps, (now - last).norm() / k_tick_s);
+        last = now;
+    }
+    EXPECT_NEAR(fastest_mps, ShownOffsets::k_most_mps, 1e-9);
+    EXPECT_LT(ticks * k_tick_s, shift_ws.norm() / ShownOffsets::k_most_mps +
+                                    2.0 * ShownOffsets::k_shown_correction_s);
 }
 
 // Two persons, the first with both hands, hold one bar, which the correction moves and turns.
