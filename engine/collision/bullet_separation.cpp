@@ -137,6 +137,26 @@ bool search_until_optimal(Query search, const Convex& a, const Convex& b, btVect
     return any;
 }
 
+// Distance of a sphere's core from a triangle, in closed form. nullopt if they touch, or nearly:
+// the direction is then up to GJK and EPA.
+std::optional<CoreSeparation> separate_point(const Convex& a, const Convex& b) {
+    constexpr double k_least_m = 1e-7;
+    if (b.corners_ns == nullptr || a.shape->getShapeType() != SPHERE_SHAPE_PROXYTYPE) {
+        return std::nullopt;
+    }
+    CoreSeparation result;
+    result.point_a_ns = a.centre_ns();
+    result.point_b_ns = closest_on_triangle(result.point_a_ns, *b.corners_ns);
+    const Vec3 offset = result.point_a_ns - result.point_b_ns;
+    result.separation_m = offset.norm();
+    if (result.separation_m < k_least_m) {
+        return std::nullopt;
+    }
+    result.normal = offset / result.separation_m;
+    snap_to_faces(b, 1.0, result);
+    return result;
+}
+
 }  // namespace
 
 double gap_along_centres(const Convex& a, const Convex& b) {
@@ -148,6 +168,9 @@ double gap_along_centres(const Convex& a, const Convex& b) {
 CoreSeparation separate(const Convex& a, const Convex& b) {
     if (are_boxes(a, b)) {
         return *separate_boxes(a, b, std::numeric_limits<double>::infinity());
+    }
+    if (const auto result = separate_point(a, b)) {
+        return *result;
     }
     const Vec3 fallback = flat_exit_direction(a, b);
     // Bullet returns `guess` as the normal if the intersection has no volume.

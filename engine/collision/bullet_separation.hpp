@@ -4,9 +4,10 @@
 
 #include "engine/collision/bullet_convex.hpp"
 
-// Signed distance of two convex cores (shapes without their radii): of boxes in closed form
-// (bullet_box_separation.hpp), of all others by Bullet's GJK and EPA. All values are in near space
-// (suffix _ns): b's axes with the origin at a's position.
+// Signed distance of two convex cores (shapes without their radii): of boxes
+// (bullet_box_separation.hpp), and of a sphere from a triangle, in closed form; of all others by
+// Bullet's GJK and EPA. All values are in near space (suffix _ns): b's axes with the origin at a's
+// position.
 namespace handhold {
 
 struct CoreSeparation {

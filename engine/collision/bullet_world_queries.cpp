@@ -190,13 +190,11 @@ std::optional<SurfacePoint> CollisionWorld::closest_point(
 std::optional<SurfacePoint> CollisionWorld::closest_point_on(std::uint64_t id,
                                                              const Vec3& point_ws) const {
     const std::span<const BroadphaseBody> bodies = impl_->broadphase.bodies();
-    const auto found = std::ranges::find_if(
-        bodies, [id](const BroadphaseBody& body) { return body.proxy.id == id; });
-    if (found == bodies.end() || found->proxy.shape == k_no_shape ||
-        !is_valid(found->proxy.to_ws)) {
+    const std::size_t index = impl_->broadphase.find_index(id);
+    if (index == bodies.size() || !is_valid(bodies[index].proxy.to_ws)) {
         return std::nullopt;
     }
-    const ColliderProxy& proxy = found->proxy;
+    const ColliderProxy& proxy = bodies[index].proxy;
     const std::optional<ScaledTriangles>& triangles = impl_->cache[proxy.shape.index].triangles;
     const Vec3 point = inverse_transform_point(proxy.to_ws, point_ws);
     constexpr double k_anywhere_m = 1e9;

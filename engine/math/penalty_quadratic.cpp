@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 #include "engine/core/check.hpp"
+#include "engine/math/double4.hpp"
+#include "engine/math/processor.hpp"
 
 namespace handhold {
 namespace {
@@ -13,43 +16,90 @@ constexpr int k_max_newton_steps = 24;
 constexpr int k_max_line_steps = 16;
 constexpr double k_converged = 1e-10;  // relative length of the last step
 
-// Replaces the lower triangle of `matrix` by its Cholesky factor L and `vector` by the solution of
-// L L^T x = vector.
-void solve_positive_definite(UnknownsSquare& matrix, Unknowns& vector, std::size_t count) {
-    const auto n = static_cast<Eigen::Index>(count);
-    constexpr double k_min_pivot = 1e-30;
-    for (Eigen::Index j = 0; j < n; ++j) {
-        const double pivot = matrix(j, j) - matrix.row(j).head(j).squaredNorm();
-        matrix(j, j) = std::sqrt(std::max(pivot, k_min_pivot));
-        for (Eigen::Index i = j + 1; i < n; ++i) {
-            matrix(i, j) =
-                (matrix(i, j) - matrix.row(i).head(j).dot(matrix.row(j).head(j))) / matrix(j, j);
-        }
+// Unknowns are processed four at a time.
+constexpr std::size_t k_blocks = k_max_unknowns / 4;
+static_assert(k_max_unknowns % 4 == 0);
+
+// Aligned copies of Unknowns and UnknownsSquare.
+struct Vector {
+    alignas(32) double at[k_max_unknowns];
+};
+struct Square {
+    Vector row[k_max_unknowns];
+};
+
+HH_INLINE Double4 load4(const double* from) {
+    Double4 value;
+    std::memcpy(&value, from, sizeof(value));
+    return value;
+}
+HH_INLINE void store4(const Double4& value, double* to) { std::memcpy(to, &value, sizeof(value)); }
+
+// The sum over the blocks from `first` on.
+HH_INLINE double dot_from(std::size_t first, const double* a, const double* b) {
+    Double4 sum = zero4();
+    for (std::size_t block = first; block < k_blocks; ++block) {
+        sum += load4(a + 4 * block) * load4(b + 4 * block);
     }
-    for (Eigen::Index i = 0; i < n; ++i) {
-        vector[i] = (vector[i] - matrix.row(i).head(i).dot(vector.head(i))) / matrix(i, i);
-    }
-    for (Eigen::Index i = n; i-- > 0;) {
-        const Eigen::Index below = n - i - 1;
-        vector[i] =
-            (vector[i] - matrix.col(i).segment(i + 1, below).dot(vector.segment(i + 1, below))) /
-            matrix(i, i);
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+// to += factor * from, in the blocks from `first` on.
+HH_INLINE void add_from(std::size_t first, double factor, const double* from, double* to) {
+    for (std::size_t block = first; block < k_blocks; ++block) {
+        store4(load4(to + 4 * block) + factor * load4(from + 4 * block), to + 4 * block);
     }
 }
 
-// Index of the only slope that is not 0; -1: there are several, or none. About half of the rows
-// limit one unknown.
-int only_slope(const Unknowns& slope) {
-    int only = -1;
-    for (int i = 0; i < static_cast<int>(k_max_unknowns); ++i) {
-        if (slope[i] != 0.0) {
-            if (only >= 0) {
-                return -1;
-            }
-            only = i;
+// Writes row i of U, whose entries left of the diagonal are undefined. First = i / 4.
+template <std::size_t First>
+HH_INLINE void eliminate_row(std::size_t i, Square& matrix, Vector& inverse_pivots) {
+    constexpr double k_min_pivot = 1e-30;
+    constexpr std::size_t k_count = k_blocks - First;
+    double* const row = matrix.row[i].at;
+    Double4 sum[k_count];
+    for (std::size_t b = 0; b < k_count; ++b) {
+        sum[b] = load4(row + 4 * (First + b));
+    }
+    for (std::size_t above = 0; above < i; ++above) {
+        const double* const from = matrix.row[above].at;
+        for (std::size_t b = 0; b < k_count; ++b) {
+            sum[b] -= from[i] * load4(from + 4 * (First + b));
         }
     }
-    return only;
+    const double inverse = 1.0 / std::sqrt(std::max(sum[0][i - 4 * First], k_min_pivot));
+    for (std::size_t b = 0; b < k_count; ++b) {
+        store4(inverse * sum[b], row + 4 * (First + b));
+    }
+    inverse_pivots.at[i] = inverse;
+}
+
+template <std::size_t First>
+HH_INLINE void eliminate_rows(std::size_t count, Square& matrix, Vector& inverse_pivots) {
+    for (std::size_t i = 4 * First; i < std::min(count, 4 * First + 4); ++i) {
+        eliminate_row<First>(i, matrix, inverse_pivots);
+    }
+    if constexpr (First + 1 < k_blocks) {
+        if (4 * (First + 1) < count) {
+            eliminate_rows<First + 1>(count, matrix, inverse_pivots);
+        }
+    }
+}
+
+// Replaces the upper triangle of `matrix` by its Cholesky factor U and `vector` by the solution of
+// U^T U x = vector. Entries of `vector` from `count` on become 0.
+HH_INLINE void solve_positive_definite(std::size_t count, Square& matrix, Vector& vector) {
+    Vector inverse_pivots;  // NOLINT(*-member-init): filled as far as used
+    eliminate_rows<0>(count, matrix, inverse_pivots);
+    Vector between;  // NOLINT(*-member-init): U x, filled as far as used
+    for (std::size_t i = 0; i < count; ++i) {
+        between.at[i] = vector.at[i] * inverse_pivots.at[i];
+        add_from(i / 4, -between.at[i], matrix.row[i].at, vector.at);
+    }
+    std::fill(std::begin(vector.at), std::end(vector.at), 0.0);
+    for (std::size_t i = count; i-- > 0;) {
+        vector.at[i] =
+            (between.at[i] - dot_from(i / 4, matrix.row[i].at, vector.at)) * inverse_pivots.at[i];
+    }
 }
 
 // Value of an inequality along a step: value + length * along.
@@ -95,58 +145,67 @@ double best_length(double slope_at_zero, double curvature, std::span<const RowOn
     return length;
 }
 
-}  // namespace
+// Adds a violated row to the Newton system matrix * step = -gradient.
+HH_INLINE void add_violated(const PenaltyRow& row, double value, std::size_t count, Square& matrix,
+                            Vector& step) {
+    const double* const slope = row.slope.data();
+    if (row.only >= 0) {
+        step.at[row.only] -= row.weight * value * slope[row.only];
+        matrix.row[row.only].at[row.only] += row.weight * slope[row.only] * slope[row.only];
+        return;
+    }
+    add_from(0, -row.weight * value, slope, step.at);
+    for (std::size_t k = 0; k < count; ++k) {
+        if (slope[k] != 0.0) {
+            add_from(k / 4, row.weight * slope[k], slope, matrix.row[k].at);
+        }
+    }
+}
 
-Unknowns minimise_penalised(const UnknownsSquare& hessian, const Unknowns& gradient,
-                            std::span<const PenaltyRow> rows, std::size_t count) {
-    HH_CHECK(count <= k_max_unknowns && rows.size() <= k_max_penalty_rows, "a small problem",
-             count);
-    const auto n = static_cast<Eigen::Index>(count);
-    std::array<double, k_max_penalty_rows> values;   // NOLINT(*-member-init): filled as far as used
-    std::array<double, k_max_penalty_rows> along;    // NOLINT(*-member-init)
-    std::array<RowOnLine, k_max_penalty_rows> line;  // NOLINT(*-member-init)
-    std::array<int, k_max_penalty_rows> only;        // NOLINT(*-member-init)
+HH_INLINE void minimise(const UnknownsSquare& hessian, const Unknowns& gradient,
+                        std::span<const PenaltyRow> rows, std::size_t count, Unknowns& result) {
+    double values[k_max_penalty_rows];   // NOLINT(*-member-init): filled as far as used
+    double along[k_max_penalty_rows];    // NOLINT(*-member-init)
+    RowOnLine line[k_max_penalty_rows];  // NOLINT(*-member-init)
     for (std::size_t r = 0; r < rows.size(); ++r) {
         values[r] = rows[r].value;
-        only[r] = only_slope(rows[r].slope);
     }
-    Unknowns x = Unknowns::Zero();
+    Vector x = {};
+    Vector turned = {};  // hessian * x
+    Square matrix;       // NOLINT(*-member-init): only its upper triangle is used
     for (int newton = 0; newton < k_max_newton_steps; ++newton) {
-        UnknownsSquare matrix = hessian;
-        const Unknowns turned = hessian.lazyProduct(x);
-        Unknowns step = -gradient - turned;
+        for (std::size_t i = 0; i < count; ++i) {
+            std::memcpy(matrix.row[i].at, hessian.data() + i * k_max_unknowns, sizeof(Vector));
+        }
+        Vector step;  // NOLINT(*-member-init)
+        for (std::size_t block = 0; block < k_blocks; ++block) {
+            store4(-load4(gradient.data() + 4 * block) - load4(turned.at + 4 * block),
+                   step.at + 4 * block);
+        }
         for (std::size_t r = 0; r < rows.size(); ++r) {
-            const auto& [slope, value, weight] = rows[r];
-            const int i = only[r];
-            if (values[r] >= 0.0) {
-                continue;
-            }
-            if (i >= 0) {
-                step[i] -= weight * values[r] * slope[i];
-                matrix(i, i) += weight * slope[i] * slope[i];
-                continue;
-            }
-            step -= weight * values[r] * slope;
-            for (Eigen::Index k = 0; k < n; ++k) {
-                if (slope[k] != 0.0) {
-                    matrix.row(k).head(k + 1) += weight * slope[k] * slope.head(k + 1).transpose();
-                }
+            if (values[r] < 0.0) {
+                add_violated(rows[r], values[r], count, matrix, step);
             }
         }
-        step.tail(static_cast<Eigen::Index>(k_max_unknowns) - n).setZero();
-        solve_positive_definite(matrix, step, count);
+        solve_positive_definite(count, matrix, step);
         std::size_t line_count = 0;  // rows that are violated somewhere along the step
         for (std::size_t r = 0; r < rows.size(); ++r) {
-            const int i = only[r];
-            along[r] = i >= 0 ? rows[r].slope[i] * step[i] : rows[r].slope.dot(step);
+            const int i = rows[r].only;
+            along[r] = i >= 0 ? rows[r].slope.data()[i] * step.at[i]
+                              : dot_from(0, rows[r].slope.data(), step.at);
             if (std::min(values[r], values[r] + along[r]) < 0.0) {
                 line[line_count++] = {values[r], along[r], rows[r].weight};
             }
         }
-        const Unknowns bent = hessian.lazyProduct(step);
-        const double length = best_length(turned.dot(step) + gradient.dot(step), bent.dot(step),
-                                          {line.data(), line_count});
-        x += length * step;
+        Vector bent = {};  // hessian * step
+        for (std::size_t i = 0; i < count; ++i) {
+            add_from(0, step.at[i], hessian.data() + i * k_max_unknowns, bent.at);
+        }
+        const double length =
+            best_length(dot_from(0, turned.at, step.at) + dot_from(0, gradient.data(), step.at),
+                        dot_from(0, bent.at, step.at), {line, line_count});
+        add_from(0, length, step.at, x.at);
+        add_from(0, length, bent.at, turned.at);
         // If the whole step is taken and the same rows stay violated, it ends exactly at the
         // minimum.
         bool is_exact = length == 1.0;
@@ -155,10 +214,40 @@ Unknowns minimise_penalised(const UnknownsSquare& hessian, const Unknowns& gradi
             values[r] += length * along[r];
             is_exact = is_exact && (before < 0.0) == (values[r] < 0.0);
         }
-        if (is_exact || length * step.norm() <= k_converged * (1.0 + x.norm())) {
+        const double travel = length * std::sqrt(dot_from(0, step.at, step.at));
+        if (is_exact || travel <= k_converged * (1.0 + std::sqrt(dot_from(0, x.at, x.at)))) {
             break;
         }
     }
+    std::memcpy(result.data(), x.at, sizeof(x));
+}
+
+#ifdef HH_AVX2
+HH_AVX2 void minimise_avx2(const UnknownsSquare& hessian, const Unknowns& gradient,
+                           std::span<const PenaltyRow> rows, std::size_t count, Unknowns& result) {
+    minimise(hessian, gradient, rows, count, result);
+}
+#endif
+void minimise_portable(const UnknownsSquare& hessian, const Unknowns& gradient,
+                       std::span<const PenaltyRow> rows, std::size_t count, Unknowns& result) {
+    minimise(hessian, gradient, rows, count, result);
+}
+
+}  // namespace
+
+Unknowns minimise_penalised(const UnknownsSquare& hessian, const Unknowns& gradient,
+                            std::span<const PenaltyRow> rows, std::size_t count, Vectors vectors) {
+    HH_CHECK(count <= k_max_unknowns && rows.size() <= k_max_penalty_rows, "a small problem",
+             count);
+    Unknowns x;
+#ifdef HH_AVX2
+    if (vectors == Vectors::avx2) {
+        minimise_avx2(hessian, gradient, rows, count, x);
+        return x;
+    }
+#endif
+    (void)vectors;
+    minimise_portable(hessian, gradient, rows, count, x);
     return x;
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "components/body_tuning.hpp"
-#include "engine/ecs/join.hpp"
+#include "engine/core/parallel.hpp"
 #include "engine/math/scalar_rotation.hpp"
 
 namespace handhold {
@@ -171,21 +171,33 @@ void clear_arm(const Trunk& trunk, const Vec3& outward, double dt_s, ArmMemory::
     }
 }
 
+void clear_player(const ClearArmsIo& io, std::size_t index) {
+    const Entity player = io.arms.owners()[index];
+    ArmMemory* const memory = io.memory.find(player);
+    const SpinePose* const spine = io.spine.find(player);
+    const BodyMeasures* const measures = io.measures.find(player);
+    if (memory == nullptr || spine == nullptr || measures == nullptr) {
+        return;
+    }
+    ArmPose& arms = io.arms.elements()[index];
+    const Trunk trunk{
+        {spine->chest_ws.position, spine->spine_ws.back().position, spine->pelvis_ws.position},
+        k_trunk_clearance_m * measures->eye_height_m / k_scale_eye_m};
+    const Vec3 right = spine->chest_ws.rotation * Vec3::UnitX();
+    clear_arm(trunk, -right, io.dt_s, memory->arms[0], arms.arms[0]);
+    clear_arm(trunk, right, io.dt_s, memory->arms[1], arms.arms[1]);
+}
+
 }  // namespace
 
 void clear_arms(const ClearArmsIo& io) {
-    join(
-        io.arms,
-        [&](Entity, ArmPose& arms, ArmMemory& memory, const SpinePose& spine,
-            const BodyMeasures& measures) {
-            const Trunk trunk{
-                {spine.chest_ws.position, spine.spine_ws.back().position, spine.pelvis_ws.position},
-                k_trunk_clearance_m * measures.eye_height_m / k_scale_eye_m};
-            const Vec3 right = spine.chest_ws.rotation * Vec3::UnitX();
-            clear_arm(trunk, -right, io.dt_s, memory.arms[0], arms.arms[0]);
-            clear_arm(trunk, right, io.dt_s, memory.arms[1], arms.arms[1]);
-        },
-        io.memory, io.spine, io.measures);
+    constexpr std::size_t k_players_per_slice = 32;
+    const auto clear = [&io](std::size_t /*slice*/, std::size_t first, std::size_t last) {
+        for (std::size_t index = first; index < last; ++index) {
+            clear_player(io, index);
+        }
+    };
+    parallel_slices(io.arms.size(), k_players_per_slice, clear);
 }
 
 }  // namespace handhold

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/hand_indices.hpp"
+#include "engine/core/parallel.hpp"
 #include "systems/body/shared/body_proportions.hpp"
 
 namespace handhold {
@@ -86,46 +88,66 @@ std::optional<BodyMeasures> seen_measures(const SizeEstimate& size) {
     return measures;
 }
 
-void estimate_sizes(const EstimateSizesIo& io) {
-    for (std::size_t index = 0; index < io.size.size(); ++index) {
-        SizeEstimate& size = io.size.elements()[index];
-        const Entity player = io.size.owners()[index];
-        const HeadTracking& head = io.head.at(player);
-        size.is_measured = size.is_measured || io.calibration.at(player).done;
-        if (!size.is_measured && is_seen(head.state) && !head.is_inferred) {
-            const double scale = io.origin.at(player).scale;
-            see((head.pose_ps.position.y() - head.shift_m.y()) / scale, io.dt_s, size.eyes);
-        }
+namespace {
+
+// Notes the lengths that this frame shows of a player who is not measured.
+void see_player(const EstimateSizesIo& io, std::size_t index) {
+    SizeEstimate& size = io.size.elements()[index];
+    const Entity player = io.size.owners()[index];
+    const HeadTracking& head = io.head.at(player);
+    if (!is_seen(head.state) || head.is_inferred) {
+        return;
     }
-    for (std::size_t index = 0; index < io.owner.size(); ++index) {
-        const Entity player = io.owner.elements()[index].player;
-        const HandTracking& hand = io.hand.at(io.owner.owners()[index]);
-        const HeadTracking& head = io.head.at(player);
-        SizeEstimate& size = io.size.at(player);
-        if (!size.is_measured && is_seen(hand.state) && is_seen(head.state) && !head.is_inferred) {
-            see((hand.pose_ps.position - head.pose_ps.position).norm() / io.origin.at(player).scale,
-                io.dt_s, size.reach);
-        }
-    }
-    for (std::size_t index = 0; index < io.size.size(); ++index) {
-        const SizeEstimate& size = io.size.elements()[index];
-        const Entity player = io.size.owners()[index];
-        if (size.is_measured) {
+    const double scale = io.origin.at(player).scale;
+    see((head.pose_ps.position.y() - head.shift_m.y()) / scale, io.dt_s, size.eyes);
+    const std::size_t none = io.owner.size();
+    const std::size_t first = find_hand_index(io.owner, player, k_hand_count * index);
+    const std::size_t second = first == none ? none : find_hand_index(io.owner, player, first + 1);
+    for (const std::size_t hand_index : {first, second == first ? none : second}) {
+        if (hand_index == none) {
             continue;
         }
-        if (const auto seen = seen_measures(size)) {
-            const double scale = io.origin.at(player).scale;
-            const double most_m = scale * std::min(k_size_mps * io.dt_s, k_size_m_per_frame);
-            const BodyMeasures wanted = scaled(*seen, scale);
-            BodyMeasures& measures = io.measures.at(player);
-            follow(wanted.eye_height_m, most_m, measures.eye_height_m);
-            follow(wanted.shoulder_width_m, most_m, measures.shoulder_width_m);
-            // Both bones together change by that much.
-            const double upper_share = wanted.upper_arm_m / (wanted.upper_arm_m + wanted.forearm_m);
-            follow(wanted.upper_arm_m, upper_share * most_m, measures.upper_arm_m);
-            follow(wanted.forearm_m, (1.0 - upper_share) * most_m, measures.forearm_m);
+        const HandTracking& hand = io.hand.at(io.owner.owners()[hand_index]);
+        if (is_seen(hand.state)) {
+            see((hand.pose_ps.position - head.pose_ps.position).norm() / scale, io.dt_s,
+                size.reach);
         }
     }
+}
+
+void follow_seen_measures(const EstimateSizesIo& io, std::size_t index) {
+    const Entity player = io.size.owners()[index];
+    const auto seen = seen_measures(io.size.elements()[index]);
+    if (!seen) {
+        return;
+    }
+    const double scale = io.origin.at(player).scale;
+    const double most_m = scale * std::min(k_size_mps * io.dt_s, k_size_m_per_frame);
+    const BodyMeasures wanted = scaled(*seen, scale);
+    BodyMeasures& measures = io.measures.at(player);
+    follow(wanted.eye_height_m, most_m, measures.eye_height_m);
+    follow(wanted.shoulder_width_m, most_m, measures.shoulder_width_m);
+    // Both bones together change by that much.
+    const double upper_share = wanted.upper_arm_m / (wanted.upper_arm_m + wanted.forearm_m);
+    follow(wanted.upper_arm_m, upper_share * most_m, measures.upper_arm_m);
+    follow(wanted.forearm_m, (1.0 - upper_share) * most_m, measures.forearm_m);
+}
+
+}  // namespace
+
+void estimate_sizes(const EstimateSizesIo& io) {
+    constexpr std::size_t k_players_per_slice = 32;
+    const auto estimate = [&io](std::size_t /*slice*/, std::size_t first, std::size_t last) {
+        for (std::size_t index = first; index < last; ++index) {
+            SizeEstimate& size = io.size.elements()[index];
+            size.is_measured = size.is_measured || io.calibration.at(io.size.owners()[index]).done;
+            if (!size.is_measured) {
+                see_player(io, index);
+                follow_seen_measures(io, index);
+            }
+        }
+    };
+    parallel_slices(io.size.size(), k_players_per_slice, estimate);
 }
 
 }  // namespace handhold

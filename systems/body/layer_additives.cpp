@@ -5,7 +5,6 @@
 
 #include "components/body_clip_state.hpp"
 #include "engine/core/parallel.hpp"
-#include "engine/ecs/join.hpp"
 #include "engine/math/scalar_rotation.hpp"
 #include "systems/body/shared/fold_body.hpp"
 
@@ -212,15 +211,22 @@ void layer_clavicles(const LayerClaviclesIo& io, const AdditiveTuning& additive,
     if (additive.clavicle == 0.0 || io.clips.at(BodyClipName::clavicle).keys.empty()) {
         return;
     }
-    join(
-        io.estimate,
-        [&](Entity, ArmEstimate& estimate, const BodyMeasures& measures) {
-            for (const HandSide side : {HandSide::left, HandSide::right}) {
-                turn_clavicle(io.clips, side, measures.upper_arm_m + measures.forearm_m, arm.reach,
-                              additive.clavicle, estimate.chest_ps, estimate.arms[index_of(side)]);
+    constexpr std::size_t k_players_per_slice = 32;
+    const auto layer = [&](std::size_t /*slice*/, std::size_t first, std::size_t last) {
+        for (std::size_t index = first; index < last; ++index) {
+            const BodyMeasures* const measures = io.measures.find(io.estimate.owners()[index]);
+            if (measures == nullptr) {
+                continue;
             }
-        },
-        io.measures);
+            ArmEstimate& estimate = io.estimate.elements()[index];
+            for (const HandSide side : {HandSide::left, HandSide::right}) {
+                turn_clavicle(io.clips, side, measures->upper_arm_m + measures->forearm_m,
+                              arm.reach, additive.clavicle, estimate.chest_ps,
+                              estimate.arms[index_of(side)]);
+            }
+        }
+    };
+    parallel_slices(io.estimate.size(), k_players_per_slice, layer);
 }
 
 void layer_additives(const LayerAdditivesIo& io, const AdditiveTuning& tuning) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/anim/two_bone_ik.hpp"
+#include "engine/core/parallel.hpp"
 #include "engine/math/scalar_rotation.hpp"
 #include "systems/body/shared/fold_body.hpp"
 
@@ -139,41 +140,49 @@ void part_legs(double apart_m, SpinePose& pose) {
     }
 }
 
+void limit_feet_of(const LimitFeetIo& io, std::size_t index) {
+    const Entity player = io.pose.owners()[index];
+    SpinePose& pose = io.pose.elements()[index];
+    SpineMemory& memory = io.memory.at(player);
+    const auto& [origin_ws, scale] = io.origin.at(player);
+    part_legs(
+        k_legs_apart * (pose.legs[1].thigh_ws.position - pose.legs[0].thigh_ws.position).norm(),
+        pose);
+    const Mat3 to_ps = origin_ws.rotation.toRotationMatrix().transpose();
+    for (std::size_t side = 0; side < k_hand_count; ++side) {
+        SpinePose::Leg& leg = pose.legs[side];
+        ShownJoint& foot = memory.feet[side];
+        const Vec3& chest_ws = pose.chest_ws.position;
+        const Vec3 wanted_m = to_ps * (leg.foot_ws.position - chest_ws);
+        const Vec3 hip_m = to_ps * (leg.thigh_ws.position - chest_ws);
+        const Vec3 hip_mps = (hip_m - memory.hips_m[side]) / io.dt_s;
+        memory.hips_m[side] = hip_m;
+        if (!foot.known) {
+            foot = {true, wanted_m, wanted_m, Vec3::Zero()};
+            continue;
+        }
+        const Reach reach{hip_m, hip_mps,
+                          longest_m((leg.shin_ws.position - leg.thigh_ws.position).norm(),
+                                    (leg.foot_ws.position - leg.shin_ws.position).norm())};
+        Vec3 shown_m = limited(wanted_m, reach, scale, io.dt_s, foot);
+        if (shown_m != wanted_m) {
+            const Vec3 ankle_ws = move_ankle(chest_ws + to_ps.transpose() * shown_m, leg);
+            shown_m = to_ps * (ankle_ws - chest_ws);
+        }
+        foot = {true, wanted_m, shown_m, (shown_m - foot.shown_m) / io.dt_s};
+    }
+}
+
 }  // namespace
 
 void limit_feet(const LimitFeetIo& io) {
-    for (std::size_t index = 0; index < io.pose.size(); ++index) {
-        const Entity player = io.pose.owners()[index];
-        SpinePose& pose = io.pose.elements()[index];
-        SpineMemory& memory = io.memory.at(player);
-        const auto& [origin_ws, scale] = io.origin.at(player);
-        part_legs(
-            k_legs_apart * (pose.legs[1].thigh_ws.position - pose.legs[0].thigh_ws.position).norm(),
-            pose);
-        const Mat3 to_ps = origin_ws.rotation.toRotationMatrix().transpose();
-        for (std::size_t side = 0; side < k_hand_count; ++side) {
-            SpinePose::Leg& leg = pose.legs[side];
-            ShownJoint& foot = memory.feet[side];
-            const Vec3& chest_ws = pose.chest_ws.position;
-            const Vec3 wanted_m = to_ps * (leg.foot_ws.position - chest_ws);
-            const Vec3 hip_m = to_ps * (leg.thigh_ws.position - chest_ws);
-            const Vec3 hip_mps = (hip_m - memory.hips_m[side]) / io.dt_s;
-            memory.hips_m[side] = hip_m;
-            if (!foot.known) {
-                foot = {true, wanted_m, wanted_m, Vec3::Zero()};
-                continue;
-            }
-            const Reach reach{hip_m, hip_mps,
-                              longest_m((leg.shin_ws.position - leg.thigh_ws.position).norm(),
-                                        (leg.foot_ws.position - leg.shin_ws.position).norm())};
-            Vec3 shown_m = limited(wanted_m, reach, scale, io.dt_s, foot);
-            if (shown_m != wanted_m) {
-                const Vec3 ankle_ws = move_ankle(chest_ws + to_ps.transpose() * shown_m, leg);
-                shown_m = to_ps * (ankle_ws - chest_ws);
-            }
-            foot = {true, wanted_m, shown_m, (shown_m - foot.shown_m) / io.dt_s};
+    constexpr std::size_t k_players_per_slice = 32;
+    const auto limit = [&io](std::size_t /*slice*/, std::size_t first, std::size_t last) {
+        for (std::size_t index = first; index < last; ++index) {
+            limit_feet_of(io, index);
         }
-    }
+    };
+    parallel_slices(io.pose.size(), k_players_per_slice, limit);
 }
 
 }  // namespace handhold

@@ -1,5 +1,6 @@
 #include "systems/body/limit_pelvis.hpp"
 
+#include "engine/core/parallel.hpp"
 #include "engine/math/scalar_rotation.hpp"
 
 namespace handhold {
@@ -42,39 +43,45 @@ void turn_hips(const Vec3& before_ws, double most_rad, SpinePose& pose) {
     }
 }
 
+void limit_pelvis_of(const LimitPelvisIo& io, std::size_t index) {
+    const Entity player = io.pose.owners()[index];
+    SpinePose& pose = io.pose.elements()[index];
+    SpineMemory& memory = io.memory.at(player);
+    ShownJoint& pelvis = memory.pelvis;
+    const auto& [origin_ws, scale] = io.origin.at(player);
+    const Mat3 to_ws = origin_ws.rotation.toRotationMatrix();
+    const Vec3 wanted_m = to_ws.transpose() * (pose.pelvis_ws.position - pose.chest_ws.position);
+    if (!pelvis.known) {
+        pelvis = {true, wanted_m, wanted_m, Vec3::Zero()};
+        return;
+    }
+    const Vec3 limited_m = shown_at(
+        wanted_m, limited_mps(wanted_m, k_pelvis_limits, scale, io.dt_s, pelvis), io.dt_s, pelvis);
+    Vec3 shown_m = wanted_m;
+    const double wanted_length_m = wanted_m.norm();
+    const double limited_length_m = limited_m.norm();
+    constexpr double k_shortest_m = 1e-6;
+    if (limited_m != wanted_m && wanted_length_m > k_shortest_m &&
+        limited_length_m > k_shortest_m) {
+        shown_m = limited_m * (wanted_length_m / limited_length_m);
+        turn_below_chest(rotation_between(to_ws * (wanted_m / wanted_length_m),
+                                          to_ws * (limited_m / limited_length_m)),
+                         pose);
+    }
+    pelvis = {true, wanted_m, shown_m, (shown_m - pelvis.shown_m) / io.dt_s};
+    turn_hips(to_ws * (memory.hips_m[1] - memory.hips_m[0]), k_hips_radps * io.dt_s, pose);
+}
+
 }  // namespace
 
 void limit_pelvis(const LimitPelvisIo& io) {
-    for (std::size_t index = 0; index < io.pose.size(); ++index) {
-        const Entity player = io.pose.owners()[index];
-        SpinePose& pose = io.pose.elements()[index];
-        SpineMemory& memory = io.memory.at(player);
-        ShownJoint& pelvis = memory.pelvis;
-        const auto& [origin_ws, scale] = io.origin.at(player);
-        const Mat3 to_ws = origin_ws.rotation.toRotationMatrix();
-        const Vec3 wanted_m =
-            to_ws.transpose() * (pose.pelvis_ws.position - pose.chest_ws.position);
-        if (!pelvis.known) {
-            pelvis = {true, wanted_m, wanted_m, Vec3::Zero()};
-            continue;
+    constexpr std::size_t k_players_per_slice = 32;
+    const auto limit = [&io](std::size_t /*slice*/, std::size_t first, std::size_t last) {
+        for (std::size_t index = first; index < last; ++index) {
+            limit_pelvis_of(io, index);
         }
-        const Vec3 limited_m =
-            shown_at(wanted_m, limited_mps(wanted_m, k_pelvis_limits, scale, io.dt_s, pelvis),
-                     io.dt_s, pelvis);
-        Vec3 shown_m = wanted_m;
-        const double wanted_length_m = wanted_m.norm();
-        const double limited_length_m = limited_m.norm();
-        constexpr double k_shortest_m = 1e-6;
-        if (limited_m != wanted_m && wanted_length_m > k_shortest_m &&
-            limited_length_m > k_shortest_m) {
-            shown_m = limited_m * (wanted_length_m / limited_length_m);
-            turn_below_chest(rotation_between(to_ws * (wanted_m / wanted_length_m),
-                                              to_ws * (limited_m / limited_length_m)),
-                             pose);
-        }
-        pelvis = {true, wanted_m, shown_m, (shown_m - pelvis.shown_m) / io.dt_s};
-        turn_hips(to_ws * (memory.hips_m[1] - memory.hips_m[0]), k_hips_radps * io.dt_s, pose);
-    }
+    };
+    parallel_slices(io.pose.size(), k_players_per_slice, limit);
 }
 
 }  // namespace handhold

@@ -1,23 +1,30 @@
 #include "systems/body/pose_arms.hpp"
 
+#include "engine/core/parallel.hpp"
 #include "systems/body/shared/pose_arm.hpp"
 
 namespace handhold {
 
 void pose_arms(const PoseArmsIo& io) {
-    for (std::size_t index = 0; index < io.owner.size(); ++index) {
-        const HandOwner& owner = io.owner.elements()[index];
-        const ArmEstimate& estimate = io.estimate.at(owner.player);
-        const Pose& origin_ws = io.origin.at(owner.player).pose_ws;
-        ArmPose& pose = io.arms.at(owner.player);
-        pose.chest_ws = origin_ws * estimate.chest_ps;
-        const std::size_t side = index_of(owner.side);
-        pose_arm({.origin_ws = origin_ws,
-                  .chest_ws = pose.chest_ws,
-                  .measures = io.measures.at(owner.player)},
-                 estimate.arms[side], io.palm.at(io.owner.owners()[index]).pose_ws,
-                 pose.arms[side]);
+    for (std::size_t index = 0; index < io.arms.size(); ++index) {
+        const Entity player = io.arms.owners()[index];
+        io.arms.elements()[index].chest_ws =
+            io.origin.at(player).pose_ws * io.estimate.at(player).chest_ps;
     }
+    constexpr std::size_t k_hands_per_slice = 64;
+    const auto pose = [&io](std::size_t /*slice*/, std::size_t first, std::size_t last) {
+        for (std::size_t index = first; index < last; ++index) {
+            const HandOwner& owner = io.owner.elements()[index];
+            ArmPose& arms = io.arms.at(owner.player);
+            const std::size_t side = index_of(owner.side);
+            pose_arm({.origin_ws = io.origin.at(owner.player).pose_ws,
+                      .chest_ws = arms.chest_ws,
+                      .measures = io.measures.at(owner.player)},
+                     io.estimate.at(owner.player).arms[side],
+                     io.palm.at(io.owner.owners()[index]).pose_ws, arms.arms[side]);
+        }
+    };
+    parallel_slices(io.owner.size(), k_hands_per_slice, pose);
 }
 
 }  // namespace handhold

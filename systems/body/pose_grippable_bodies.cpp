@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
 #include "components/scaled_tuning.hpp"
+#include "engine/core/parallel.hpp"
 #include "systems/body/shared/memoryless_body.hpp"
 #include "systems/body/shared/rest_hand.hpp"
 
@@ -15,26 +17,48 @@ const Pose& head_ps(const PoseGrippableBodiesIo& io, Entity player) {
     return is_null(io.asking) ? head.start_ps : head.pose_ps;
 }
 
-// Adds the body of a player, unless it is there already.
-void add_grippable_body(const PoseGrippableBodiesIo& io, Entity player, TuningOfPlayers& tunings) {
-    if (io.bodies.contains(player)) {
-        return;
+// The indices of a player's hands in io.owner, by side; its size where a hand is missing.
+using HandIndices = std::array<std::size_t, k_hand_count>;
+
+// Scratch memory per thread, not per call: a frame allocates nothing once warm.
+struct Scratch {
+    std::vector<HandIndices> hands;  // indexed like io.origin
+    std::vector<bool> closes;        // indexed like io.origin: one of the player's hands may close
+    struct Head {
+        Vec3 position_ws;
+        double body_reach_m = 0.0;  // distance within which the player's parts are
+        bool is_tracked = false;    // now or earlier
+    };
+    std::vector<Head> heads;  // indexed like io.origin
+};
+
+Scratch& scratch() {
+    thread_local Scratch memory;
+    return memory;
+}
+
+void add_body(const PoseGrippableBodiesIo& io, Entity player) {
+    if (!io.bodies.contains(player)) {
+        io.bodies.add(player);
     }
+}
+
+GrippableBody grippable_body(const PoseGrippableBodiesIo& io, Entity player,
+                             const HandIndices& hands, TuningOfPlayers& tunings) {
     TrackedBody body{
         head_ps(io, player), {}, io.measures.at(player), io.head.at(player).shift_m.y()};
     std::array<ArmGoal, k_hand_count> goals{};
-    for (std::size_t index = 0; index < io.owner.size(); ++index) {
-        const HandOwner& owner = io.owner.elements()[index];
-        if (owner.player == player) {
-            const Entity hand = io.owner.owners()[index];
-            const HandTracking& tracking = io.hand.at(hand);
-            body.hands_ps[index_of(owner.side)] =
-                is_null(io.asking) ? tracking.start_ps : tracking.pose_ps;
-            goals[index_of(owner.side)] = arm_goal(io.grab.at(hand), tracking);
+    for (std::size_t side = 0; side < k_hand_count; ++side) {
+        if (hands[side] == io.owner.size()) {
+            continue;
         }
+        const Entity hand = io.owner.owners()[hands[side]];
+        const HandTracking& tracking = io.hand.at(hand);
+        body.hands_ps[side] = is_null(io.asking) ? tracking.start_ps : tracking.pose_ps;
+        goals[side] = arm_goal(io.grab.at(hand), tracking);
     }
     const PlayerOrigin& origin = io.origin.at(player);
-    io.bodies.add(player, memoryless_body(origin, body, goals, tunings.of(origin).arm));
+    return memoryless_body(origin, body, goals, tunings.of(origin).arm);
 }
 
 // True if the hand may begin to grip in this frame.
@@ -42,37 +66,53 @@ bool may_close(const PoseGrippableBodiesIo& io, Entity hand) {
     return hand == io.asking || io.hand.at(hand).edge == GrabEdge::onset || io.pull.contains(hand);
 }
 
-// True if the hand or its player's other hand may close: that hand may join it on a body that needs
-// both.
-bool may_close_or_join(const PoseGrippableBodiesIo& io, std::size_t index) {
-    const Entity player = io.owner.elements()[index].player;
-    for (std::size_t other = 0; other < io.owner.size(); ++other) {
-        if (io.owner.elements()[other].player == player &&
-            may_close(io, io.owner.owners()[other])) {
-            return true;
+// Writes the scratch. A player's hands close together, because one hand may
+// join the other on a body that needs both.
+void see_players(const PoseGrippableBodiesIo& io, Scratch& players) {
+    const std::size_t none = io.owner.size();
+    players.hands.assign(io.origin.size(), {none, none});
+    players.closes.assign(io.origin.size(), false);
+    players.heads.clear();
+    for (const Entity player : io.origin.owners()) {
+        players.heads.push_back(
+            {transform_point(io.origin.at(player).pose_ws, head_ps(io, player).position),
+             k_grippable_eyes * io.measures.at(player).eye_height_m,
+             io.head.at(player).state != TrackingState::never});
+    }
+    for (std::size_t index = 0; index < io.owner.size(); ++index) {
+        const HandOwner& owner = io.owner.elements()[index];
+        const std::size_t player = io.origin.find_index(owner.player);
+        players.hands[player][index_of(owner.side)] = index;
+        if (may_close(io, io.owner.owners()[index])) {
+            players.closes[player] = true;
         }
     }
-    return false;
 }
 
-// True if the hand may find a part of that player in this frame. Errs on the side of true. Nobody
-// knows where a player is whose head was never tracked.
-bool may_reach(const PoseGrippableBodiesIo& io, std::size_t index, Entity player,
-               TuningOfPlayers& tunings) {
-    if (io.head.at(player).state == TrackingState::never) {
-        return false;
-    }
+// Adds the bodies of other players of which the hand may find a part in this frame. Errs on the
+// side of more. Nobody knows where a player is whose head was never tracked.
+void add_bodies_in_reach(const PoseGrippableBodiesIo& io, std::size_t index,
+                         const HandTuning& tuning, const Scratch& players) {
     const HandTracking& hand = io.hand.at(io.owner.owners()[index]);
-    const PlayerOrigin& own = io.origin.at(io.owner.elements()[index].player);
-    const PlayerOrigin& other = io.origin.at(player);
-    const HandTuning& tuning = tunings.of(own).hand;
-    const double reach_m = tuning.palm_center_m.norm() + tuning.ray_back_m + tuning.ray_length_m +
-                           tuning.reach_m + k_grippable_eyes * io.measures.at(player).eye_height_m;
-    const Vec3 head_ws = transform_point(other.pose_ws, head_ps(io, player).position);
-    const std::array poses_ps = {&hand.start_ps, &hand.edge_ps, &hand.pose_ps};
-    return std::ranges::any_of(poses_ps, [&](const Pose* pose_ps) {
-        return (transform_point(own.pose_ws, pose_ps->position) - head_ws).norm() <= reach_m;
-    });
+    const Entity own = io.owner.elements()[index].player;
+    const Pose& origin_ws = io.origin.at(own).pose_ws;
+    const std::array points_ws = {transform_point(origin_ws, hand.start_ps.position),
+                                  transform_point(origin_ws, hand.edge_ps.position),
+                                  transform_point(origin_ws, hand.pose_ps.position)};
+    const double hand_reach_m =
+        tuning.palm_center_m.norm() + tuning.ray_back_m + tuning.ray_length_m + tuning.reach_m;
+    for (std::size_t other = 0; other < io.origin.size(); ++other) {
+        const Scratch::Head& head = players.heads[other];
+        const double reach_m = hand_reach_m + head.body_reach_m;
+        const bool is_near =
+            head.is_tracked && std::ranges::any_of(points_ws, [&](const Vec3& point) {
+                return (point - head.position_ws).squaredNorm() <= reach_m * reach_m;
+            });
+        const Entity player = io.origin.owners()[other];
+        if (is_near && player != own) {
+            add_body(io, player);
+        }
+    }
 }
 
 }  // namespace
@@ -83,23 +123,30 @@ void pose_grippable_bodies(const PoseGrippableBodiesIo& io, const Tuning& tuning
         return;
     }
     TuningOfPlayers tunings(tuning);
+    Scratch& players = scratch();
+    see_players(io, players);
     for (const Entity hand : io.body_hold.owners()) {
         const Grab& grab = io.grab.at(hand);
         if (grab.kind == GripKind::player && io.origin.contains(grab.body)) {
-            add_grippable_body(io, grab.body, tunings);
+            add_body(io, grab.body);
         }
     }
     for (std::size_t index = 0; index < io.owner.size(); ++index) {
-        if (!may_close_or_join(io, index)) {
-            continue;
-        }
-        for (const Entity player : io.origin.owners()) {
-            if (player != io.owner.elements()[index].player &&
-                may_reach(io, index, player, tunings)) {
-                add_grippable_body(io, player, tunings);
-            }
+        const Entity own = io.owner.elements()[index].player;
+        if (players.closes[io.origin.find_index(own)]) {
+            add_bodies_in_reach(io, index, tunings.of(io.origin.at(own)).hand, players);
         }
     }
+    constexpr std::size_t k_players_per_slice = 4;
+    const auto pose = [&](std::size_t /*slice*/, std::size_t first, std::size_t last) {
+        TuningOfPlayers own_tunings(tuning);
+        for (std::size_t index = first; index < last; ++index) {
+            const Entity player = io.bodies.owners()[index];
+            io.bodies.elements()[index] = grippable_body(
+                io, player, players.hands[io.origin.find_index(player)], own_tunings);
+        }
+    };
+    parallel_slices(io.bodies.size(), k_players_per_slice, pose);
 }
 
 }  // namespace handhold

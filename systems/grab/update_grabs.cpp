@@ -1,10 +1,14 @@
 #include "systems/grab/update_grabs.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <span>
+#include <vector>
 
 #include "components/hand_indices.hpp"
 #include "components/play_space.hpp"
 #include "components/scaled_tuning.hpp"
+#include "engine/core/parallel.hpp"
 #include "systems/grab/shared/grab_sight.hpp"
 #include "systems/grab/shared/grip_kind.hpp"
 #include "systems/grab/shared/release_grabs.hpp"
@@ -141,23 +145,75 @@ bool has_joined(const UpdateGrabsIo& io, const Grab& grab, const HandTracking& h
            grab.phase == GrabPhase::fresh && grab.since_s == hand.edge_t_s;
 }
 
-void begin_grab(const UpdateGrabsIo& io, std::size_t index, const Closing& closing,
-                const Tuning& tuning, StageStats& stats) {
+// A hand that may begin to grip in this frame, and the surface that it finds.
+struct ClosingHand {
+    std::size_t index = 0;  // index into io.grab
+    Closing closing;
+    GrabSearchResult surface;
+};
+
+std::optional<Closing> closing_of(const UpdateGrabsIo& io, std::size_t index) {
+    const Entity entity = io.grab.owners()[index];
+    const HandTracking& hand = io.hand.at(entity);
+    if (hand.edge == GrabEdge::onset) {
+        return Closing{hand.edge_ps, hand.edge_t_s, k_no_entity};
+    }
+    const HandPull* const pull = io.pull.find(entity);
+    if (pull != nullptr && hand.edge == GrabEdge::none && hand.pressed &&
+        hand.state == TrackingState::tracked && !hand.resumed &&
+        io.grab.elements()[index].kind == GripKind::none) {
+        return Closing{hand.start_ps, pull->closed_s, pull->body};
+    }
+    return std::nullopt;
+}
+
+// Lists the hands that may begin to grip, in the order of io.grab, and searches their surfaces: the
+// search is the largest part of the stage and depends on no other closing hand. The result is valid
+// until the next call on this thread.
+std::span<const ClosingHand> search_surfaces(const UpdateGrabsIo& io, const Tuning& tuning) {
+    thread_local std::vector<ClosingHand> closing;
+    closing.clear();
+    for (std::size_t index = 0; index < io.grab.size(); ++index) {
+        if (const auto hand = closing_of(io, index)) {
+            closing.push_back({index, *hand, {}});
+        }
+    }
+    // Tasks on other threads must not name the thread-local variable.
+    std::vector<ClosingHand>& hands = closing;
+    auto search = [&](std::size_t i) {
+        TuningOfPlayers tunings(tuning);
+        const PlayerOrigin& origin = origin_of(io, hands[i].index);
+        hands[i].surface =
+            find_surface_target(io, io.grab.owners()[hands[i].index],
+                                origin.pose_ws * hands[i].closing.hand_ps, tunings.of(origin));
+    };
+    if (io.surfaces.any_thread()) {
+        parallel_for(hands.size(), search);
+    } else {
+        for (std::size_t i = 0; i < hands.size(); ++i) {
+            search(i);
+        }
+    }
+    return closing;
+}
+
+void begin_grab(const UpdateGrabsIo& io, const ClosingHand& hand, const Tuning& tuning,
+                StageStats& stats) {
+    const auto& [index, closing, surface] = hand;
     const Entity entity = io.grab.owners()[index];
     const HandOwner& owner = io.owner.at(entity);
     const auto& [origin_ws, scale] = io.origin.at(owner.player);
     const Pose hand_ws = origin_ws * closing.hand_ps;
     const PalmRay ray = palm_ray(hand_ws, owner.side, tuning.hand);
-    const GrabSearchResult found =
-        find_grab_target(io, entity, hand_ws, closing.only, tuning, stats);
-    const auto& target = found.target;
+    const auto snap = find_snap_target(io, entity, hand_ws, closing.only, tuning, stats);
+    const auto& target = snap ? snap : surface.target;
     if (!is_null(closing.only) && (!target || target->body != closing.only ||
                                    !(target->hold || is_at_palm(*target, ray, scale)))) {
         return;  // the pulled body is not at the palm yet
     }
     io.authored_hold.remove(entity);
     if (!target) {
-        stats.note(found.refusal, entity, found.refused_by);
+        stats.note(surface.refusal, entity, surface.refused_by);
         return;
     }
     const GrabRule* const rule = io.rules.rule_of(target->body);
@@ -264,6 +320,8 @@ void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& sta
     release_grabs_out_of_reach(io, tunings, stats);
     update_sights(io, tuning);
     carry_out_orders(io, tunings, stats);
+    const std::span<const ClosingHand> closing = search_surfaces(io, tuning);
+    auto next = closing.begin();
     for (std::size_t index = 0; index < io.grab.size(); ++index) {
         Grab& grab = io.grab.elements()[index];
         const Entity entity = io.grab.owners()[index];
@@ -272,18 +330,15 @@ void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& sta
             grab.phase = GrabPhase::releasing;
         }
         update_authored_hold(io, entity, grab, stats);
-        const HandPull* const pull = io.pull.find(entity);
-        if (hand.edge == GrabEdge::onset) {
-            ++stats.grab_onsets;
-            if (!has_joined(io, grab, hand)) {
-                begin_grab(io, index, {hand.edge_ps, hand.edge_t_s, k_no_entity},
-                           tunings.of(origin_of(io, index)), stats);
-            }
-        } else if (pull != nullptr && hand.edge == GrabEdge::none && hand.pressed &&
-                   hand.state == TrackingState::tracked && !hand.resumed &&
-                   grab.kind == GripKind::none) {
-            begin_grab(io, index, {hand.start_ps, pull->closed_s, pull->body},
-                       tunings.of(origin_of(io, index)), stats);
+        if (next == closing.end() || next->index != index) {
+            continue;
+        }
+        const ClosingHand& closing_hand = *next++;
+        const bool closes_now = hand.edge == GrabEdge::onset;
+        stats.grab_onsets += closes_now ? 1U : 0U;
+        // A hand that joined its player's other hand in this loop grips already.
+        if (closes_now ? !has_joined(io, grab, hand) : grab.kind == GripKind::none) {
+            begin_grab(io, closing_hand, tunings.of(origin_of(io, index)), stats);
         }
     }
     release_half_held_bodies(io, stats);

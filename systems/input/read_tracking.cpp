@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "components/hand_indices.hpp"
 #include "components/scaled_tuning.hpp"
@@ -16,17 +18,34 @@ namespace {
 
 constexpr double k_half_turn_rad = 3.14159265358979323846;
 
-void read_head(HeadTracking& head, PlaySpaceTracker space, const PlayerInput& input,
+// Follows the samples up to the first one after the frame. The result is valid until the next call
+// on this thread.
+std::span<const FollowedSample> follow_samples(PlaySpaceTracker space,
+                                               std::span<const TrackingSample> samples,
+                                               double frame_end_s, const TrackingTuning& tuning) {
+    thread_local std::vector<FollowedSample> followed;
+    followed.clear();
+    for (const TrackingSample& sample : samples) {
+        const PlaySpaceTracker::Jump jump = space.follow(sample, tuning);
+        followed.push_back({&sample, space, jump});
+        if (is_later(sample.t_s, frame_end_s)) {
+            break;
+        }
+    }
+    return followed;
+}
+
+void read_head(HeadTracking& head, std::span<const FollowedSample> samples,
                const ReadTrackingIo& io, const TrackingTuning& tuning, StageStats& stats) {
-    bool has_sample = space.has_head();
+    bool has_sample = head.state != TrackingState::never;
     bool has_jumped = false;
     head.start_ps = head.pose_ps;
     Pose later;
     const Pose* later_or_null = nullptr;
     double later_t_s = 0.0;
-    for (const TrackingSample& sample : input.samples) {
+    for (const auto& [followed, space, jump] : samples) {
+        const TrackingSample& sample = *followed;
         const bool is_stale_now = is_stale(sample.t_s, has_sample, head.sample_t_s);
-        const PlaySpaceTracker::Jump jump = space.follow(sample, tuning);
         if (is_later(sample.t_s, io.frame_end_s)) {
             if (is_trackable(sample.head_ps) && jump != PlaySpaceTracker::Jump::meant &&
                 jump != PlaySpaceTracker::Jump::guess) {
@@ -147,6 +166,8 @@ void read_player(const ReadTrackingIo& io, std::size_t index, TuningOfPlayers& t
                                  {.corrects_jumps = guess == nullptr || guess->guesses,
                                   .freezes_guesses = holds_on,
                                   .scale = origin.scale});
+    const std::span<const FollowedSample> samples =
+        follow_samples(space, input.samples, io.frame_end_s, tuning.tracking);
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         const std::size_t hand_index = hand_indices[index_of(side)];
         if (hand_index < io.owner.size()) {
@@ -156,15 +177,14 @@ void read_player(const ReadTrackingIo& io, std::size_t index, TuningOfPlayers& t
                 {.frame_start_s = io.frame_start_s,
                  .frame_end_s = io.frame_end_s,
                  .side = side,
-                 .space = space,
                  .scale = origin.scale,
                  .freezes_guesses = holds_on && grab != nullptr && grab->kind != GripKind::none,
                  .hand = io.hand.at(entity),
                  .history = io.history.at(entity)},
-                input.samples, tuning, stats);
+                samples, tuning, stats);
         }
     }
-    read_head(head, space, input, io, tuning.tracking, stats);
+    read_head(head, samples, io, tuning.tracking, stats);
     if (PlayerCommands* const commands = io.commands.find(player)) {
         *commands = finite_commands(input.commands);
         commands->thrust_ps = head.shift_turn * commands->thrust_ps;

@@ -4,6 +4,7 @@
 #include "engine/solver/newton/active_set.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace handhold {
 namespace {
@@ -142,11 +143,12 @@ void RowSystem::shorten_unbalanced() {
         lambda_[i] = fixed_[i] != 0 ? 0.0 : feasible_lambda_[i];
     }
     matrix_.gather_moves(lambda_);
+    const std::span<const double> alpha = std::as_const(matrix_).alpha();
     double slope = 0.0;
     double curvature = 0.0;  // q(t lambda) = t slope + t^2 curvature / 2
     for (std::size_t i = 0; i < size(); ++i) {
         slope += lambda_[i] * values_[i];
-        curvature += lambda_[i] * (matrix_.row_motion(i) + matrix_.alpha()[i] * lambda_[i]);
+        curvature += lambda_[i] * (matrix_.row_motion(i) + alpha[i] * lambda_[i]);
     }
     if (slope + 0.5 * curvature <= 0.0) {
         return;

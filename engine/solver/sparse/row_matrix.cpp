@@ -209,6 +209,7 @@ void RowMatrix::assemble(std::span<const SolverBody> bodies,
     }
     alpha_.assign(rows.size(), 0.0);
     takes_part_.assign(rows.size(), 0);
+    is_factorised_ = false;
     moves_.resize(inverse_inertia_ws.size());
 }
 
@@ -230,12 +231,20 @@ void RowMatrix::exclude_row(std::uint32_t node, std::size_t row_in_node) {
 }
 
 void RowMatrix::factorise(std::span<const std::uint8_t> chosen) {
+    for (std::uint32_t i = 0; i < size(); ++i) {
+        const std::uint8_t takes_part = chosen[i] != 0 && diagonal_[i] > 0.0 ? 1 : 0;
+        is_factorised_ = is_factorised_ && takes_part == takes_part_[i];
+        takes_part_[i] = takes_part;
+    }
+    if (is_factorised_) {
+        return;
+    }
+    is_factorised_ = true;
     const std::span<double> values = factor_.values();
     std::ranges::copy(matrix_, values.begin());
     for (std::uint32_t i = 0; i < size(); ++i) {
         const std::uint32_t node = node_of_row_[i];
         const std::uint32_t m = i - nodes_[node].first_row;
-        takes_part_[i] = chosen[i] != 0 && diagonal_[i] > 0.0 ? 1 : 0;
         if (takes_part_[i] != 0) {
             const EliminationPlan::Panel& panel = plan().panel_of(node);
             values[panel.begin + m * panel.stride + m] += alpha_[i];

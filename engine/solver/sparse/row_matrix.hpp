@@ -30,10 +30,15 @@ class RowMatrix {
     double diagonal(std::size_t row) const { return diagonal_[row]; }
     // The diagonal `alpha` in the equation above (regularisation): one value per row, >= 0. Takes
     // effect with the next `factorise`.
-    std::span<double> alpha() { return alpha_; }
+    std::span<double> alpha() {
+        is_factorised_ = false;
+        return alpha_;
+    }
+    std::span<const double> alpha() const { return alpha_; }
 
     // Factorises the matrix of the rows with a non-zero `chosen`, as if the others did not exist.
-    // Also omits rows that no body can move (zero diagonal).
+    // Also omits rows that no body can move (zero diagonal). Keeps the last factor if it is that of
+    // the same rows and alpha.
     void factorise(std::span<const std::uint8_t> chosen);
     // Multiply-adds of one factorisation, an upper bound. Depends on the rows only.
     std::uint64_t factorisation_cost() const;
@@ -88,6 +93,7 @@ class RowMatrix {
     std::vector<double> smallest_pivots_;  // indexed by unknown
     BlockFactor factor_;
     std::vector<std::uint8_t> takes_part_;  // one per row; 1: part of the last factor
+    bool is_factorised_ = false;            // factor_ is of takes_part_ and alpha_
     std::vector<double> unknowns_;
     std::vector<Twist> moves_;
 };

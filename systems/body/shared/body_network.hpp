@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 
+#include "engine/math/float4.hpp"
 #include "engine/math/math.hpp"
 
 // A small feed-forward network. It is evaluated in one fixed order, in floats, with nothing but
@@ -37,11 +39,26 @@ struct NetworkAnswer {
     double familiarity;
 };
 
-// y[j] + sum over i of weights[i * Outputs + j] * x[i], in the order of i.
+// y[j] + sum over i of weights[i * Outputs + j] * x[i], in the order of i. Four outputs at a time
+// where Outputs is a multiple of 4.
 template <std::size_t Inputs, std::size_t Outputs>
 std::array<float, Outputs> add_layer(const std::array<float, Inputs>& x,
                                      const std::array<float, Inputs * Outputs>& weights,
                                      std::array<float, Outputs> y) {
+    if constexpr (Outputs % 4 == 0) {
+        std::array<Float4, Outputs / 4> sums;
+        std::memcpy(sums.data(), y.data(), sizeof(y));
+        for (std::size_t i = 0; i < Inputs; ++i) {
+            const Float4 input = splat4(x[i]);
+            for (std::size_t k = 0; k < sums.size(); ++k) {
+                Float4 weight;
+                std::memcpy(&weight, weights.data() + i * Outputs + 4 * k, sizeof(weight));
+                sums[k] += weight * input;
+            }
+        }
+        std::memcpy(y.data(), sums.data(), sizeof(y));
+        return y;
+    }
     for (std::size_t i = 0; i < Inputs; ++i) {
         const float input = x[i];
         for (std::size_t j = 0; j < Outputs; ++j) {

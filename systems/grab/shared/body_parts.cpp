@@ -110,8 +110,9 @@ std::optional<PartHit> GrippableBodies::nearest(const Vec3& near_ws, double with
             continue;
         }
         const BodyMeasures& size = measures.at(player);
-        const Pose head_ws = origin.at(player).pose_ws * head.at(player).start_ps;
-        if ((head_ws.position - near_ws).norm() > within_m + k_grippable_eyes * size.eye_height_m) {
+        const Vec3 head_ws =
+            transform_point(origin.at(player).pose_ws, head.at(player).start_ps.position);
+        if ((head_ws - near_ws).norm() > within_m + k_grippable_eyes * size.eye_height_m) {
             continue;
         }
         for (std::size_t i = 0; i < k_gripped_parts; ++i) {

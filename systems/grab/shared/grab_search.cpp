@@ -331,17 +331,32 @@ class SnapFinder {
 
 }  // namespace
 
-GrabSearchResult find_grab_target(const GrabSearch& io, Entity hand, const Pose& hand_ws,
-                                  Entity only, const Tuning& tuning, StageStats& stats) {
+GrabSearchResult find_surface_target(const GrabSearch& io, Entity hand, const Pose& hand_ws,
+                                     const Tuning& tuning) {
     const HandOwner& owner = io.owner.at(hand);
     const PalmRay ray = palm_ray(hand_ws, owner.side, tuning.hand);
     const SightSkips skips = sight_skips(io, hand);
     const SightLines sight = sight_lines(io, hand, ray.palm_ws, skips, tuning.head);
-    if (const auto snap = SnapFinder(io, hand, hand_ws, sight, tuning, stats).find(only)) {
-        return {snap->target};
-    }
     return find_visible_surface(io, owner, ray, hand_ws.rotation * -Vec3::UnitZ(), sight,
                                 tuning.hand);
+}
+
+std::optional<GrabTarget> find_snap_target(const GrabSearch& io, Entity hand, const Pose& hand_ws,
+                                           Entity only, const Tuning& tuning, StageStats& stats) {
+    const HandOwner& owner = io.owner.at(hand);
+    const PalmRay ray = palm_ray(hand_ws, owner.side, tuning.hand);
+    const SightSkips skips = sight_skips(io, hand);
+    const SightLines sight = sight_lines(io, hand, ray.palm_ws, skips, tuning.head);
+    const auto snap = SnapFinder(io, hand, hand_ws, sight, tuning, stats).find(only);
+    return snap ? std::optional(snap->target) : std::nullopt;
+}
+
+GrabSearchResult find_grab_target(const GrabSearch& io, Entity hand, const Pose& hand_ws,
+                                  Entity only, const Tuning& tuning, StageStats& stats) {
+    if (const auto snap = find_snap_target(io, hand, hand_ws, only, tuning, stats)) {
+        return {snap};
+    }
+    return find_surface_target(io, hand, hand_ws, tuning);
 }
 
 }  // namespace handhold

@@ -76,11 +76,18 @@ struct GrabSearchResult {
     Entity refused_by = k_no_entity;               // the body that refused the hand, if any
 };
 
-// Finds what a hand at `hand_ws` grips if it closes. Ignores bodies that refuse the hand by their
+// Finds what a hand at `hand_ws` grips if it closes: the target of find_snap_target, else that of
+// find_surface_target. Ignores bodies that refuse the hand by their
 // GrabRule or by its player's GrabLayers. `only`: considers only authored grips of this body; null:
 // of all bodies. `tuning`: of the hand's player (TuningOfPlayers). Counts authored grips that are
 // occupied or blocked.
 GrabSearchResult find_grab_target(const GrabSearch& io, Entity hand, const Pose& hand_ws,
                                   Entity only, const Tuning& tuning, StageStats& stats);
+// An authored grip in reach.
+std::optional<GrabTarget> find_snap_target(const GrabSearch& io, Entity hand, const Pose& hand_ws,
+                                           Entity only, const Tuning& tuning, StageStats& stats);
+// The surface at the palm. Only reads, on any thread if io.surfaces.any_thread().
+GrabSearchResult find_surface_target(const GrabSearch& io, Entity hand, const Pose& hand_ws,
+                                     const Tuning& tuning);
 
 }  // namespace handhold

@@ -56,6 +56,12 @@ class FitProblem {
         }
         add_constant(part, 0.5 * weight * value * value);
     }
+    // The same for a slope of 1 at one place and 0 at all others.
+    void add_square(const FitPart& part, double weight, double value, int place) {
+        hessian_(place, place) += weight;
+        gradient_[place] += weight * value;
+        add_constant(part, 0.5 * weight * value * value);
+    }
     void add_constant(const FitPart& part, double cost_m2) {
         squares_m2_ += cost_m2;
         charge(part, cost_m2);
@@ -64,6 +70,15 @@ class FitProblem {
     void add_row(const FitPart& part, const Unknowns& slope, double value, double weight) {
         rows_.push_back({slope, value, weight});
         charge(part, penalty_m2(rows_.back()));
+    }
+    // The same for a slope that is `sign` at one place and 0 at all others.
+    void add_limit(const FitPart& part, int place, double sign, double value, double weight) {
+        PenaltyRow& row = rows_.emplace_back();
+        row.slope[place] = sign;
+        row.value = value;
+        row.weight = weight;
+        row.only = place;
+        charge(part, penalty_m2(row));
     }
     // Keeps an unknown at 0, by a stiffness much larger than all weights.
     void hold(int place) {
@@ -92,7 +107,8 @@ class FitProblem {
         for (const PenaltyRow& row : rows_) {
             if (!row.slope.segment(first, count).isZero(0.0)) {
                 PenaltyRow& to = rows_[kept++];
-                to = {moved_to_front(row.slope, first, count), row.value, row.weight};
+                to = {moved_to_front(row.slope, first, count), row.value, row.weight,
+                      row.only >= 0 ? row.only - first : -1};
             }
         }
         const Unknowns some =

@@ -56,6 +56,7 @@ double opposition_share(const FingerRig& finger, double knuckle_rad) {
 
 double HandObjective::evaluate(const HandPose& pose) {
     begin(pose);
+    spheres_.query(pose_, frames_);
     add_wrist();
     for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
         add_digit(f);
@@ -70,6 +71,7 @@ double HandObjective::evaluate(const HandPose& pose) {
 
 double HandObjective::evaluate_thumb(const HandPose& pose, std::size_t t) {
     begin(pose);
+    spheres_.query_digit(t, pose_, frames_);
     add_digit(t);
     add_contacts(spheres_.of_digit(t));
     add_digit_gaps();
@@ -79,7 +81,6 @@ double HandObjective::evaluate_thumb(const HandPose& pose, std::size_t t) {
 void HandObjective::begin(const HandPose& pose) {
     pose_ = pose;
     place_links();
-    spheres_.query(pose_, frames_);
     problem_.clear();
 }
 
@@ -120,8 +121,8 @@ Unknowns HandObjective::solve_thumb(std::size_t t) {
 void HandObjective::add_step_limits(int first, int end) {
     const FitPart part(FitTerm::joints, FitTerms::k_palm);  // costs nothing where it starts
     for (int i = first; i < end; ++i) {
-        problem_.add_row(part, unit(i), goal_.max_flex_rad, k_joint_limit * k_lever2);
-        problem_.add_row(part, unit(i, -1.0), goal_.max_flex_rad, k_joint_limit * k_lever2);
+        problem_.add_limit(part, i, 1.0, goal_.max_flex_rad, k_joint_limit * k_lever2);
+        problem_.add_limit(part, i, -1.0, goal_.max_flex_rad, k_joint_limit * k_lever2);
     }
 }
 
@@ -130,9 +131,9 @@ void HandObjective::add_wrist() {
     const Vec3 turned = rotation_to_vector(
         (pose_.wrist_bs.rotation * hand_.wrist_bs.rotation.conjugate()).normalized());
     for (int i = 0; i < 3; ++i) {
-        problem_.add_square({FitTerm::sync, FitTerms::k_palm}, 1.0, moved[i], unit(i));
+        problem_.add_square({FitTerm::sync, FitTerms::k_palm}, 1.0, moved[i], i);
         problem_.add_square({FitTerm::sync, FitTerms::k_palm}, k_fit_arm_m * k_fit_arm_m, turned[i],
-                            unit(3 + i));
+                            3 + i);
     }
 }
 
@@ -145,11 +146,11 @@ void HandObjective::add_hinges(std::size_t f) {
         const double angle_rad = angles.curl_rad[i];
         problem_.add_square({FitTerm::rest, f},
                             (is_free_thumb ? k_rest_of_free_thumb : k_rest) * k_lever2,
-                            angle_rad - finger.rest_rad[i], unit(place));
-        problem_.add_row({FitTerm::joints, f}, unit(place), angle_rad - finger.lower_rad[i],
-                         k_joint_limit * k_lever2);
-        problem_.add_row({FitTerm::joints, f}, unit(place, -1.0), finger.upper_rad[i] - angle_rad,
-                         k_joint_limit * k_lever2);
+                            angle_rad - finger.rest_rad[i], place);
+        problem_.add_limit({FitTerm::joints, f}, place, 1.0, angle_rad - finger.lower_rad[i],
+                           k_joint_limit * k_lever2);
+        problem_.add_limit({FitTerm::joints, f}, place, -1.0, finger.upper_rad[i] - angle_rad,
+                           k_joint_limit * k_lever2);
     }
     if (finger.link_count == 3) {
         add_coupling(f);
@@ -187,11 +188,11 @@ void HandObjective::add_opposition(std::size_t f) {
     const int place = layout_.opposition(f);
     const double angle_rad = pose_.fingers[f].opposition_rad;
     problem_.add_square({FitTerm::opposition, f}, k_opposition * k_lever2,
-                        angle_rad - goal_.rest_opposition_rad, unit(place));
-    problem_.add_row({FitTerm::joints, f}, unit(place), angle_rad - finger.lower_opposition_rad,
-                     k_joint_limit * k_lever2);
-    problem_.add_row({FitTerm::joints, f}, unit(place, -1.0),
-                     finger.upper_opposition_rad - angle_rad, k_joint_limit * k_lever2);
+                        angle_rad - goal_.rest_opposition_rad, place);
+    problem_.add_limit({FitTerm::joints, f}, place, 1.0, angle_rad - finger.lower_opposition_rad,
+                       k_joint_limit * k_lever2);
+    problem_.add_limit({FitTerm::joints, f}, place, -1.0, finger.upper_opposition_rad - angle_rad,
+                       k_joint_limit * k_lever2);
 }
 
 void HandObjective::add_spread(std::size_t f) {
@@ -202,7 +203,7 @@ void HandObjective::add_spread(std::size_t f) {
     const double share = opposition_share(finger, bend_rad);
     const bool shrinks = bend_rad > 0.0 && bend_rad < k_bent_spread_rad;
     const double shrink_per_rad = shrinks ? -(1.0 - k_bent_spread_share) / k_bent_spread_rad : 0.0;
-    problem_.add_square({FitTerm::spread, f}, k_spread * k_lever2, spread_rad, unit(place));
+    problem_.add_square({FitTerm::spread, f}, k_spread * k_lever2, spread_rad, place);
     if (goal_.is_fixed[f]) {
         return;  // authored angles are kept, whatever their range
     }

@@ -35,8 +35,8 @@ class HandObjective {
     // per evaluate(). goal.max_flex_rad and what the goal fixes are penalties here, so the result
     // may exceed them slightly: the caller clamps it.
     Unknowns solve();
-    // The same for the thumb at index `t` alone: the rest of the hand stays where it was at the
-    // first evaluation, and costs nothing.
+    // The same for the terms of the thumb at index `t` alone. Gaps of the rest of the hand are
+    // not updated. Precondition: evaluate() was called.
     double evaluate_thumb(const HandPose& pose, std::size_t t);
     Unknowns solve_thumb(std::size_t t);
 
@@ -47,7 +47,7 @@ class HandObjective {
     double penetration_m() const { return spheres_.penetration_m(); }
 
   private:
-    void begin(const HandPose& pose);
+    void begin(const HandPose& pose);  // all but the spheres' gaps
     void place_links();
     void add_wrist();
     void add_digit(std::size_t f);

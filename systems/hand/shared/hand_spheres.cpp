@@ -130,10 +130,11 @@ HandSpheres::HandSpheres(const HandSurroundings& hand, const GripSurface& surfac
               count_);
 }
 
-std::array<double, k_finger_count + 1> HandSpheres::keep_gaps_m() const {
+std::array<double, k_finger_count + 1> HandSpheres::keep_gaps_m(
+    std::span<const HandSphere> spheres) const {
     std::array<double, k_finger_count + 1> nearest_m;
     nearest_m.fill(std::numeric_limits<double>::infinity());
-    for (const HandSphere& sphere : all()) {
+    for (const HandSphere& sphere : spheres) {
         if (!sphere.is_extra && is_queried_ && !is_knuckle(sphere)) {
             const Vec3 moved = sphere.center - sphere.searched_center;
             double& least_m = nearest_m[group_of(sphere)];
@@ -145,13 +146,24 @@ std::array<double, k_finger_count + 1> HandSpheres::keep_gaps_m() const {
 }
 
 void HandSpheres::query(const HandPose& pose, const HandLinkFrames& frames) {
+    query(std::span(spheres_).first(count_), pose, frames);
+    is_queried_ = true;
+}
+
+void HandSpheres::query_digit(std::size_t finger, const HandPose& pose,
+                              const HandLinkFrames& frames) {
+    query(std::span(spheres_).subspan(first_[finger], first_[finger + 1] - first_[finger]), pose,
+          frames);
+}
+
+void HandSpheres::query(std::span<HandSphere> spheres, const HandPose& pose,
+                        const HandLinkFrames& frames) {
     const HandSphere* nearest = nullptr;   // sphere of the present capsule with the smallest gap
     const HandSphere* previous = nullptr;  // sphere that was searched last
-    const std::span<HandSphere> spheres = std::span(spheres_).first(count_);
     for (HandSphere& sphere : spheres) {
         sphere.center = center_of(sphere, pose, frames);
     }
-    const auto keep_m = keep_gaps_m();
+    const auto keep_m = keep_gaps_m(spheres);
     for (HandSphere& sphere : spheres) {
         if (sphere.is_extra) {
             if (is_queried_ && keeps_gap(sphere)) {
@@ -183,7 +195,6 @@ void HandSpheres::query(const HandPose& pose, const HandLinkFrames& frames) {
             nearest = &sphere;
         }
     }
-    is_queried_ = true;
 }
 
 // If the centre is still near the place of the last search, corrects the sphere's gap by the

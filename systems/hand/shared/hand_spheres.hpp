@@ -81,6 +81,8 @@ class HandSpheres {
     // path since its last search crosses a surface of that mesh: windings of open or broken meshes
     // cannot flip a finger through a wall.
     void query(const HandPose& pose, const HandLinkFrames& frames);
+    // The same for one digit's spheres; the others keep their gaps. Precondition: query was called.
+    void query_digit(std::size_t finger, const HandPose& pose, const HandLinkFrames& frames);
 
     std::span<const HandSphere> all() const { return {spheres_.data(), count_}; }
     std::span<const HandSphere> of_digit(std::size_t finger) const {
@@ -96,9 +98,11 @@ class HandSpheres {
 
   private:
     void add(const HandSphere& sphere) { spheres_[count_++] = sphere; }
+    // `spheres`: all, or those of one digit.
+    void query(std::span<HandSphere> spheres, const HandPose& pose, const HandLinkFrames& frames);
     // For each digit, and last for the palm: spheres whose gap is surely larger than this keep
     // their last gap. They are not the nearest of their digit and need no extra sphere.
-    std::array<double, k_finger_count + 1> keep_gaps_m() const;
+    std::array<double, k_finger_count + 1> keep_gaps_m(std::span<const HandSphere> spheres) const;
     // `near_sphere`: a sphere nearby, whose triangle bounds the search.
     void query_sphere(HandSphere& sphere, const HandSphere* near_sphere, bool is_first);
     static bool keeps_gap(HandSphere& sphere);

@@ -45,7 +45,6 @@ struct HandReader {
     StageStats& stats;
     HandTracking& hand;
     HandHistory& history;
-    PlaySpaceTracker space;  // follows the samples
     bool has_sample = false;
     bool has_jumped = false;
     bool is_inferred = false;        // the last reading used was a guess
@@ -54,14 +53,16 @@ struct HandReader {
     // Why a reading is ignored; none if it is used. `is_meant`: the devices jumped as intended, so
     // any travel of the hand is plausible.
     std::optional<Fallback> refusal(const ControllerSample& reading, const Pose& hand_ps,
-                                    double t_s, bool is_meant) const {
+                                    const FollowedSample& followed) const {
+        const double t_s = followed.sample->t_s;
+        const bool is_meant = followed.jump == PlaySpaceTracker::Jump::meant;
         if (!is_trackable(reading.controller_ps)) {
             return Fallback::sample_not_finite;
         }
         if (is_asleep(reading)) {
             return Fallback::device_asleep;
         }
-        if (!space.is_in_reach(hand_ps.position, tuning.hand.max_arm_m)) {
+        if (!followed.space.is_in_reach(hand_ps.position, tuning.hand.max_arm_m)) {
             return Fallback::hand_out_of_reach;
         }
         if (has_sample && !is_meant && !reading.is_inferred &&
@@ -155,19 +156,19 @@ struct HandReader {
         }
     }
 
-    void read(std::span<const TrackingSample> samples) {
+    void read(std::span<const FollowedSample> samples) {
         const TrackingState before = hand.state;
         has_sample = before != TrackingState::never;
         is_inferred = before == TrackingState::inferred;
         begin_frame();
         std::optional<Pose> later;
         double later_t_s = 0.0;
-        for (const TrackingSample& sample : samples) {
+        for (const FollowedSample& followed : samples) {
+            const TrackingSample& sample = *followed.sample;
             const ControllerSample& reading = sample.controllers[index_of(io.side)];
-            const bool is_meant =
-                space.follow(sample, tuning.tracking) == PlaySpaceTracker::Jump::meant;
-            const Pose hand_ps = space.hand_ps(reading, io.side);
-            const std::optional<Fallback> why_not = refusal(reading, hand_ps, sample.t_s, is_meant);
+            const bool is_meant = followed.jump == PlaySpaceTracker::Jump::meant;
+            const Pose hand_ps = followed.space.hand_ps(reading, io.side);
+            const std::optional<Fallback> why_not = refusal(reading, hand_ps, followed);
             if (is_later(sample.t_s, io.frame_end_s)) {
                 if (!why_not && !is_meant && !reading.is_inferred && !jumps_to(hand_ps)) {
                     later = hand_ps;
@@ -231,9 +232,9 @@ struct HandReader {
 
 }  // namespace
 
-void read_hand(const HandReaderIo& io, std::span<const TrackingSample> samples,
+void read_hand(const HandReaderIo& io, std::span<const FollowedSample> samples,
                const Tuning& tuning, StageStats& stats) {
-    HandReader{io, tuning, stats, io.hand, io.history, io.space}.read(samples);
+    HandReader{io, tuning, stats, io.hand, io.history}.read(samples);
 }
 
 }  // namespace handhold

@@ -106,4 +106,11 @@ class PlaySpaceTracker {
     std::array<Hand, k_hand_count> hands_;
 };
 
+// A sample that a player's tracker has followed.
+struct FollowedSample {
+    const TrackingSample* sample = nullptr;
+    PlaySpaceTracker space;  // state after the sample
+    PlaySpaceTracker::Jump jump = PlaySpaceTracker::Jump::none;
+};
+
 }  // namespace handhold

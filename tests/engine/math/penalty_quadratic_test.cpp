@@ -71,6 +71,19 @@ TEST(MinimisePenalised, ContradictingRowsShareTheViolation) {
     EXPECT_NEAR(x[0], 0.5, 1e-6);
 }
 
+TEST(MinimisePenalised, VectorsOfTheProcessorDoNotChangeBits) {
+    test::Random random(74);
+    for (int i = 0; i < 300; ++i) {
+        const auto unknowns = static_cast<std::size_t>(random.between(1.0, k_max_unknowns + 0.99));
+        const Problem problem(random, unknowns, 100, 500.0);
+        const auto solve = [&](Vectors vectors) {
+            return minimise_penalised(problem.hessian, problem.gradient, problem.rows, unknowns,
+                                      vectors);
+        };
+        EXPECT_EQ(solve(Vectors::portable), solve(fastest_vectors())) << i;
+    }
+}
+
 // Rows that limit one unknown have a shorter form inside.
 TEST(MinimisePenalised, LimitsOfOneUnknownAreRowsLikeOthers) {
     test::Random random(73);
@@ -82,6 +95,7 @@ TEST(MinimisePenalised, LimitsOfOneUnknownAreRowsLikeOthers) {
             const double place = random.between(0.0, static_cast<double>(unknowns));
             problem.rows[r].slope = Unknowns::Zero();
             problem.rows[r].slope[static_cast<int>(place)] = r % 4 == 0 ? 1.0 : -0.7;
+            problem.rows[r].only = static_cast<int>(place);
         }
         const Unknowns x =
             minimise_penalised(problem.hessian, problem.gradient, problem.rows, unknowns);
