@@ -168,7 +168,7 @@ def check_microsoft_headers(trial: Trial) -> None:
     source.write_text("\n".join(facts) + "\n", encoding="utf-8")
     for language in (("/TC",), ("/TC", "/std:c17"), ("/TP",), ("/TP", "/std:c++20")):
         run("clang", "--driver-mode=cl", "--target=x86_64-pc-windows-msvc", *language, "/W4", "/WX", "/Zs", "-Xclang", "-ffreestanding",
-            f"/I{trial.root / 'include'}", source)
+            f"/I{trial.root / 'include'}", "--", source)  # a path that begins with /w is an option otherwise
     print(f"  {len(structs)} structs have the layout of handhold.json by clang-cl's rules, in C and C++, at /W4 /WX")
 
 
