@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 
 namespace handhold {
 namespace {
@@ -106,6 +107,27 @@ void add_outline(std::span<const NearContact> group, std::vector<NearContact>& r
     }
 }
 
+// Moves the contacts that satisfy `belongs` to the front and returns how many there are. Swaps the
+// first that does not with the last that does until they meet. Not std::partition, whose order is
+// unspecified: the first contact of the rest is the next group's normal.
+template <class Belongs>
+std::size_t move_to_front(std::span<NearContact> contacts, const Belongs& belongs) {
+    std::size_t first = 0;
+    std::size_t last = contacts.size();
+    while (true) {
+        while (first < last && belongs(contacts[first])) {
+            ++first;
+        }
+        while (first < last && !belongs(contacts[last - 1])) {
+            --last;
+        }
+        if (first == last) {
+            return first;
+        }
+        std::swap(contacts[first++], contacts[--last]);
+    }
+}
+
 }  // namespace
 
 void reduce_contacts(std::vector<NearContact>& contacts, std::vector<NearContact>& scratch) {
@@ -116,10 +138,9 @@ void reduce_contacts(std::vector<NearContact>& contacts, std::vector<NearContact
     std::span<NearContact> remaining = contacts;
     while (!remaining.empty()) {
         const Vec3 normal = remaining.front().normal_ns;
-        const auto end = std::partition(
-            remaining.begin(), remaining.end(),
-            [&](const NearContact& c) { return c.normal_ns.dot(normal) > k_same_normal_cosine; });
-        const auto count = static_cast<std::size_t>(end - remaining.begin());
+        const std::size_t count = move_to_front(remaining, [&](const NearContact& c) {
+            return c.normal_ns.dot(normal) > k_same_normal_cosine;
+        });
         add_outline(remaining.first(count), scratch);
         remaining = remaining.subspan(count);
     }

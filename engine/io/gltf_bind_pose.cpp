@@ -9,6 +9,8 @@
 #include <string>
 #include <utility>
 
+#include "engine/math/math.hpp"
+
 namespace handhold::gltf {
 namespace {
 
@@ -31,7 +33,11 @@ std::optional<Affine> inverse_of(const Affine& map) {
 }
 
 // The map's mean scale factor: cube root of its determinant, negative if it mirrors.
-double scale_of(const Affine& map) { return std::cbrt(map.linear.determinant()); }
+// The project's cube root, because std::cbrt is rounded differently by different libraries.
+double scale_of(const Affine& map) {
+    const double determinant = map.linear.determinant();
+    return std::copysign(cube_root(std::abs(determinant)), determinant);
+}
 
 // Cosine of the rotation angle between two maps of the same scale: (trace - 1) / 2.
 double cos_between(const Affine& a, const Affine& b) {

@@ -155,6 +155,23 @@ def try_linux(trial: Trial) -> None:
             trial.check_hash("C#'s binding", line, scene)
 
 
+def check_microsoft_headers(trial: Trial) -> None:
+    """Microsoft's rules for C and C++, without their libraries: the C headers compile without a warning, with the layout that bindings use."""
+    structs = json.loads((trial.root / "share/handhold/handhold.json").read_text(encoding="utf-8"))["structs"]
+    facts = ["#include <handhold/handhold.h>", "#include <stddef.h>"]
+    for struct in structs:
+        name, layout = struct["name"], struct["layout"]["64"]
+        facts.append(f"typedef char size_of_{name}[sizeof({name}) == {layout['size']} ? 1 : -1];")
+        for field, offset in zip(struct["fields"], layout["offsets"]):
+            facts.append(f"typedef char {field['name']}_of_{name}[offsetof({name}, {field['name']}) == {offset} ? 1 : -1];")
+    source = trial.work / "layout.c"
+    source.write_text("\n".join(facts) + "\n", encoding="utf-8")
+    for language in (("/TC",), ("/TC", "/std:c17"), ("/TP",), ("/TP", "/std:c++20")):
+        run("clang", "--driver-mode=cl", "--target=x86_64-pc-windows-msvc", *language, "/W4", "/WX", "/Zs", "-Xclang", "-ffreestanding",
+            f"/I{trial.root / 'include'}", "--", source)  # a path that begins with /w is an option otherwise
+    print(f"  {len(structs)} structs have the layout of handhold.json by clang-cl's rules, in C and C++, at /W4 /WX")
+
+
 def try_windows(trial: Trial) -> None:
     library, imports = trial.root / "bin/handhold.dll", trial.root / "lib/handhold.lib"
     read = run("x86_64-w64-mingw32-objdump", "-p", library)
@@ -170,6 +187,7 @@ def try_windows(trial: Trial) -> None:
     by_cmake = trial.by_cmake("-DCMAKE_SYSTEM_NAME=Windows", "-DCMAKE_C_COMPILER=x86_64-w64-mingw32-gcc-posix")
     shutil.copy(by_cmake, trial.root / "bin")
     trial.check_hash("wall_hash.c by CMake and Wine", said_by(run(*trial.runner, trial.root / "bin" / by_cmake.name)), 1)
+    check_microsoft_headers(trial)
     # As Microsoft's compiler and linker would: their object format and name lookup, without their C library, which Debian lacks.
     made = trial.work / "microsoft.obj"
     run("clang", "--target=x86_64-pc-windows-msvc", "-std=c11", "-Wall", "-Wextra", "-Werror", "-ffreestanding", "-O1", include, "-c",

@@ -1,5 +1,6 @@
 /* A scene through the C interface: a player climbs a wall and shakes a chain while crates fly
- * about. Prints the state hash after 3 s and the median time of a step.
+ * about. Prints the state hash after 3 s and the median time of a step. With an argument it plays
+ * so many times, and each line ends with the mean time of a step.
  * game/web/package/test/same_scene.mjs makes the same calls, and must get the same hash. */
 #include <handhold/handhold.h>
 #include <stdio.h>
@@ -98,7 +99,7 @@ static int less(const void* a, const void* b) {
     return (x > y) - (x < y);
 }
 
-int main(void) {
+static void play(int says_mean) {
     check(hh_world_create(NULL, &g_world));
     add_wall();
     add_chain();
@@ -111,6 +112,7 @@ int main(void) {
     check(hh_player_set_hand_in_controller(g_world, input.player, HH_LEFT, &wrist));
     check(hh_player_set_hand_in_controller(g_world, input.player, HH_RIGHT, &wrist));
     static double step_us[k_frames];
+    double sum_us = 0.0;
     for (int frame = 1; frame <= k_frames; ++frame) {
         const hh_tracking_sample sample = devices_at(frame / 90.0);
         input.samples = &sample;
@@ -119,14 +121,26 @@ int main(void) {
         hh_world_stats stats = hh_default_world_stats();
         check(hh_world_get_stats(g_world, &stats));
         step_us[frame - 1] = stats.step_us;
+        sum_us += stats.step_us;
     }
     hh_player_pose pose;
     check(hh_world_player_poses(g_world, &input.player, 1, &pose));
     uint64_t hash = 0;
     check(hh_world_hash(g_world, &hash));
     qsort(step_us, k_frames, sizeof step_us[0], less);
-    printf("0x%016llx grips %d %d step_us %.1f\n", (unsigned long long)hash,
-           (int)pose.hands[0].grip, (int)pose.hands[1].grip, step_us[k_frames / 2]);
+    printf("0x%016llx grips %d %d step_us %.1f", (unsigned long long)hash, (int)pose.hands[0].grip,
+           (int)pose.hands[1].grip, step_us[k_frames / 2]);
+    if (says_mean) {
+        printf(" mean_us %.1f", sum_us / k_frames);
+    }
+    printf("\n");
     hh_world_destroy(g_world);
+}
+
+int main(int argc, char** argv) {
+    const int plays = argc > 1 ? atoi(argv[1]) : 1;
+    for (int i = 0; i < plays; ++i) {
+        play(argc > 1);
+    }
     return 0;
 }

@@ -83,10 +83,16 @@ class JavaScript:
                 params.append([role, "", one["name"]])
         returns = function["returns"]
         kind = "result" if returns["type"] == "hh_result" else "void" if returns["type"] == "void" else self.kind(returns)
-        return {"method": camel(method(function)), "of": self_of(function), "returns": kind, "params": params}
+        return {"method": self.method(function), "of": self_of(function), "returns": kind, "params": params}
+
+    @staticmethod
+    def method(function: dict) -> str:
+        """hh_match_packet_to -> packetTo: matches are objects of their own."""
+        name = method(function)
+        return camel(name.removeprefix("match_") if self_of(function) == "hh_match" else name)
 
     def wrapped(self) -> list:
-        return [one for one in self.description.functions if not is_raw_only(one) and self_of(one) in ("", "hh_world")]
+        return [one for one in self.description.functions if not is_raw_only(one) and self_of(one) in ("", "hh_world", "hh_match")]
 
     def calls_js(self) -> str:
         lines = [NOTICE + "// By function: the method, what it belongs to, its result, and for each parameter its purpose, kind and name.",
@@ -133,8 +139,7 @@ class JavaScript:
                 if part["name"] != "struct_size" and "counts" not in part and part["name"] != "context":
                     lines += [*doc(part.get("doc", ""), "    "), f"    {part['name']}: {self.field_type(part)};"]
             lines.append("}")
-        for name, handle in (("LibraryCalls", ""), ("WorldCalls", "hh_world")):
-            what = "a world" if handle else "the library"
+        for name, handle, what in (("LibraryCalls", "", "the library"), ("WorldCalls", "hh_world", "a world"), ("MatchCalls", "hh_match", "a match")):
             lines += ["", f"/** Every function of {what}, as a method. They throw a HandholdError if the library refuses the call. */",
                       f"export declare class {name} {{"]
             for function in (one for one in self.wrapped() if self_of(one) == handle):
@@ -161,7 +166,7 @@ class JavaScript:
             shown = results[0][1]
         elif results:
             shown = "{ " + "; ".join(f"{name}: {kind}" for name, kind in results) + " }"
-        return f"{camel(method(function))}({', '.join(words)}): {shown};"
+        return f"{self.method(function)}({', '.join(words)}): {shown};"
 
 
 def write(description) -> dict[str, str]:

@@ -1,6 +1,6 @@
 import type {
-    Given, LibraryCalls, Mesh, WorldCalls, hh_body, hh_body_def, hh_commands, hh_compound_part, hh_grip_def, hh_hand_joint,
-    hh_joint, hh_joint_def, hh_mesh_def, hh_player, hh_player_def, hh_player_pose, hh_pose, hh_quat, hh_shape, hh_tracking_sample, hh_vec3,
+    Given, LibraryCalls, MatchCalls, Mesh, WorldCalls, hh_body, hh_body_def, hh_commands, hh_compound_part, hh_grip_def, hh_hand_joint,
+    hh_joint, hh_joint_def, hh_match_def, hh_match_game, hh_mesh_def, hh_player, hh_player_def, hh_player_pose, hh_pose, hh_quat, hh_shape, hh_tracking_sample, hh_vec3,
     hh_world_def, hh_world_stats,
 } from './structs.js';
 export * from './structs.js';
@@ -86,10 +86,20 @@ export declare class World extends WorldBase {
     /** Number of fingers of a hand of the body rig that follow the shown hand's. */
     skeletonFingers(player: hh_player, side: number): number;
 
+    /** Begins a match at the present tick. `game`: state of your own that goes back and forth with the world's. */
+    createMatch(definition: Given<hh_match_def>, game?: Given<hh_match_game> | null): Match;
+
     step(dt_s: number, inputs?: PlayerInput[]): void;
     stepPoseOnly(dt_s: number, inputs?: PlayerInput[]): void;
     stats(): hh_world_stats;
 
     setTuning(name: string, ...values: number[]): void;
     getTuning(name: string, count?: number): number[];
+}
+
+/** A match in which a world takes part: every function of it is a method, hh_match_x as x. Your transport carries its packets. */
+export declare class Match extends MatchCalls {
+    private constructor();
+    /** The world stays. Not inside a callback: HH_ERROR_STATE. Call it before the world's destroy(). */
+    destroy(): void;
 }

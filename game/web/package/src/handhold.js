@@ -169,6 +169,25 @@ export class World extends WorldCalls {
         this.setFunctions('', []);
     }
 
+    /** Begins a match at the present tick. `game`: functions for state of your own, hh_match_game. */
+    createMatch(definition, game = null) {
+        this.library.refuseMissing('hh_match_create');
+        return this.library.scratch((m) => {
+            const out = m.take(4);
+            const at = game === null ? 0 : m.takeOne('hh_match_game', game);
+            const places = m.functions.takeInstalled();
+            try {
+                this.library.check(this.library.exports.hh_match_create(this.handle, m.takeOne('hh_match_def', definition), at, out));
+            } catch (error) {
+                m.functions.remove(places);
+                throw error;
+            }
+            const match = new Match(this.library, m.view.getUint32(out, true));
+            match.setFunctions('hh_match_game', places);
+            return match;
+        });
+    }
+
     addMeshShape(mesh, scale = { x: 1, y: 1, z: 1 }) {
         return this.shapeAddMesh(mesh, scale);
     }
@@ -184,6 +203,26 @@ export class World extends WorldCalls {
     }
     getTuning(name, count = 1) {
         return super.getTuning(name, count);
+    }
+}
+
+/** Every function of a match: hh_match_x as x. */
+class MatchCalls {}
+addCalls(MatchCalls, 'hh_match');
+
+/** A match in which a world takes part, on a server, a client or a spectator. Your transport carries its packets. */
+export class Match extends MatchCalls {
+    constructor(library, handle) {
+        super();
+        this.library = library;
+        this.handle = handle;
+    }
+    /** The world stays. Not inside a callback: HH_ERROR_STATE. Call it before the world's destroy(). */
+    destroy() {
+        this.library.refuseInCallback('a match');
+        this.library.exports.hh_match_destroy(this.handle);
+        this.handle = 0;
+        this.setFunctions('', []);
     }
 }
 

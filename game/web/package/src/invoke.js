@@ -82,8 +82,8 @@ function invoke(object, name, { returns, params }, given) {
                     results.push([label, () => m.readList(kind, at, size)]);
                     return at;
                 },
-                out_list: () => { list = { kind, at: words.length }; return 0; },
-                out_bytes: () => { list = { kind: '', at: words.length }; return 0; },
+                out_list: () => { list = { kind, label, at: words.length }; return 0; },
+                out_bytes: () => { list = { kind: '', label, at: words.length }; return 0; },
                 capacity: () => 0,
                 count_out: () => { counter = m.take(4); return counter; },
                 out_view: () => {
@@ -118,12 +118,13 @@ function invoke(object, name, { returns, params }, given) {
             object.setFunctions(functions, places);
         }
         if (list !== undefined) {
-            const count = m.view.getUint32(counter, true);
-            const at = m.take(count * (list.kind === '' ? 1 : layoutOf(list.kind).size));
+            const room = m.view.getUint32(counter, true);
+            const at = m.take(room * (list.kind === '' ? 1 : layoutOf(list.kind).size));
             words[list.at] = at;
-            words[list.at + 1] = count;
+            words[list.at + 1] = room;
             call();
-            return list.kind === '' ? m.bytes(at, count).slice() : m.readList(list.kind, at, count);
+            const count = m.view.getUint32(counter, true); // packets are shorter than the room that they ask for
+            results.unshift([list.label, () => list.kind === '' ? m.bytes(at, count).slice() : m.readList(list.kind, at, count)]);
         }
         if (results.length === 1) {
             return results[0][1]();

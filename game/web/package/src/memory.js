@@ -268,7 +268,7 @@ class Functions {
                 return this.#call(work, returns, params, words);
             } catch (error) {
                 this.#error ??= { error };
-                return 0;
+                return returns === 'u64' ? 0n : 0;
             } finally {
                 --this.running;
             }
@@ -297,6 +297,9 @@ class Functions {
             }
         });
         const answer = work(...given);
+        if (returns === 'u64') {
+            return BigInt(answer);
+        }
         if (out === undefined || answer === null || answer === undefined) {
             return Number(out === undefined && returns !== 'void' ? answer : 0);
         }

@@ -10,8 +10,8 @@ import { playWall } from './wall_scene.mjs';
 
 const folder = pathToFileURL(resolve(process.env.HANDHOLD_PACKAGE) + '/');
 const handholdModule = await import(new URL('handhold.js', folder));
-const { loadHandhold, HandholdError, structs, HH_DYNAMIC, HH_ERROR_HANDLE, HH_ERROR_VALUE, HH_GRIP_HELD, HH_GRIP_SURFACE, HH_HEAD, HH_HINGE,
-    HH_LEFT, HH_LEFT_FOOT, HH_RIGHT, HH_SPACE_WORLD } = handholdModule;
+const { loadHandhold, HandholdError, structs, HH_DYNAMIC, HH_ERROR_DATA, HH_ERROR_HANDLE, HH_ERROR_VALUE, HH_GRIP_HELD, HH_GRIP_SURFACE, HH_HEAD, HH_HINGE,
+    HH_LEFT, HH_LEFT_FOOT, HH_MATCH_CLIENT, HH_MATCH_SERVER, HH_MATCH_SYNC_TEST, HH_RIGHT, HH_SPACE_WORLD } = handholdModule;
 const { layoutOf } = await import(new URL('memory.js', folder));
 const { calls } = await import(new URL('calls.js', folder));
 const handhold = await loadHandhold();
@@ -65,16 +65,85 @@ test('the smaller module lacks files, saves and matches, says so, and steps alik
 });
 
 test('every function of the library is a method', () => {
-    const offered = new Set(Object.values(calls).map((call) => call.method));
-    // Matches are exported, and have no wrapper here.
-    const byHand = /^hh_(default_\w+_sized|world_create|world_destroy|mesh_create|mesh_destroy|match_\w+|last_error)$/;
+    const byHand = /^hh_(default_\w+_sized|(world|mesh|match)_(create|destroy)|last_error)$/;
+    const types = { '': handholdModule.Handhold, hh_world: handholdModule.World, hh_match: handholdModule.Match };
     const exported = Object.keys(handhold.exports).filter((name) => name.startsWith('hh_'));
     assert.ok(exported.length >= 130);
     for (const name of exported.filter((one) => !byHand.test(one))) {
         const { method, of } = calls[name];
-        assert.equal(typeof (of === '' ? handhold : handholdModule.World.prototype)[method], 'function', name);
+        assert.equal(typeof types[of].prototype[method], 'function', name);
     }
-    assert.equal(offered.size, Object.keys(calls).length);
+    assert.equal(new Set(Object.values(calls).map((call) => `${call.of}.${call.method}`)).size, Object.keys(calls).length);
+});
+
+// A server and a client of one match, with a score that goes back and forth with the worlds.
+function makeMatch() {
+    const game = () => {
+        const copies = [];
+        const kept = { score: 0 };
+        return [kept, {
+            step: (tick, buttons) => { kept.score += buttons[0]; },
+            save: (place) => { copies[place] = kept.score; },
+            restore: (place) => { kept.score = copies[place]; },
+            hash: () => BigInt(kept.score),
+        }];
+    };
+    const [atServer, atClient] = [makeWall(), makeWall()];
+    const [[serverGame, ofServer], [clientGame, ofClient]] = [game(), game()];
+    const server = atServer.world.createMatch({ role: HH_MATCH_SERVER, players: [atServer.player] }, ofServer);
+    const client = atClient.world.createMatch({ role: HH_MATCH_CLIENT, players: [atClient.player] }, ofClient);
+    server.connect(0);
+    return { atServer, atClient, server, client, serverGame, clientGame };
+}
+
+test('a client and a server play a match over packets, with equal hashes', () => {
+    const { atServer, atClient, server, client, serverGame, clientGame } = makeMatch();
+    const arriving = [];
+    for (let tick = 1; tick <= 180; ++tick) {
+        const now_s = tick / 90;
+        assert.equal(client.advance({ samples: [sampleAt(now_s)], buttons: tick % 3 }), true);
+        arriving.push(client.packet());
+        if (tick > 4) { // four ticks on the way
+            const packet = arriving.shift();
+            assert.ok(packet.length > 0 && packet.length < 1200);
+            server.receiveFrom(0, now_s, packet);
+        }
+        while (server.confirm(now_s - 0.1) > 0);
+        client.receive(server.packetTo(0));
+    }
+    const { confirmed } = client.getStats();
+    assert.ok(confirmed > 150n, String(confirmed));
+    assert.equal(server.getStats().tick, confirmed);
+    assert.equal(client.hash(confirmed), server.hash(confirmed));
+    assert.equal(atServer.world.playerPose(atServer.player).hands[HH_RIGHT].grip, HH_GRIP_SURFACE);
+    assert.ok(serverGame.score > 100 && clientGame.score >= serverGame.score);
+    const { buffer, until } = server.confirmedInputs(confirmed - 10n);
+    assert.ok(buffer.length > 0 && until === confirmed);
+    assert.throws(() => client.receive(new Uint8Array(40)), (error) => error.result === HH_ERROR_DATA);
+    for (const match of [server, client]) {
+        match.destroy();
+    }
+    atServer.world.destroy();
+    atClient.world.destroy();
+});
+
+test('what a game forgets to restore is found by a sync test', () => {
+    for (const forgets of [false, true]) {
+        const { world, player } = makeWall();
+        const copies = [];
+        let steps = 0;
+        const match = world.createMatch({ role: HH_MATCH_SYNC_TEST, players: [player] }, {
+            step: () => { ++steps; }, save: (place) => { copies[place] = steps; },
+            restore: (place) => { steps = forgets ? steps : copies[place]; }, hash: () => BigInt(steps),
+        });
+        let found = 0n;
+        for (let tick = 1; tick <= 20 && found === 0n; ++tick) {
+            found = match.syncTest([{ samples: [sampleAt(tick / 90)] }]).tick;
+        }
+        assert.equal(found > 0n, forgets);
+        match.destroy();
+        world.destroy();
+    }
 });
 
 test("a host's own physics gets the hash of a native program that makes the same calls", (context) => {

@@ -1097,3 +1097,41 @@ export declare class WorldCalls {
     /** After hh_world_step: dynamic bodies that hands hold, and those that joints connect to them. The host makes its own kinematic, takes pose and velocity from here, and places all others before the next step. They touch nothing of the host's, but push what its solver pushes. */
     heldBodies(): hh_body[];
 }
+
+/** Every function of a match, as a method. They throw a HandholdError if the library refuses the call. */
+export declare class MatchCalls {
+    /** How often to call hh_match_advance for so much time of the local clock since the last call, [0, 8]: a little more or less than its share, so that inputs reach the server just before they are needed. A spectator stays 9 ticks behind what has come. */
+    ticksDue(elapsed_s: number): number;
+    /** Goes back to the first wrong guess, if there is one, steps again to the present, and then one tick on. `input`, not null. `advanced` gets false, and the input is dropped, while the world is 62 ticks ahead of what is confirmed. Cost: a step, and a quarter of one for each tick stepped again: docs/reference/matches.md has figures. A spectator steps the next confirmed tick, or gets false if its inputs have not come; of `input` it takes only is_hidden. */
+    advance(input: Given<hh_match_input>): boolean;
+    /** Takes a packet of the server; a spectator those of hh_match_confirmed_inputs. HH_ERROR_DATA, and no change, for bytes that are damaged or not of this match. Packets that came too late or out of order are HH_OK: what they lack comes again. Both are counted in hh_match_stats.refused. Tolerates any bytes. */
+    receive(packet: Uint8Array | string | null): void;
+    /** Clients only. Writes the next packet to the server, `size` bytes. Call once a tick or once in two. A null `buffer` asks for the most bytes that a packet has, HH_MATCH_PACKET_BYTES; HH_ERROR_CAPACITY for a smaller `capacity`. */
+    packet(): Uint8Array;
+    /** Replaces the world's state by the one of hh_match_state, over a reliable stream of yours. Set your own state to the server's of the same tick before the next hh_match_advance. HH_ERROR_DATA, and no change, for other bytes. Tolerates any bytes. */
+    join(bytes: Uint8Array | string | null): void;
+    /** Somebody plays the slot, or nobody does: then its hands let go and its body floats. At first nobody plays any slot. */
+    connect(slot: number): void;
+    disconnect(slot: number): void;
+    /** Takes a packet that came from that slot's player, at `now_s` on the server's clock. As hh_match_receive; a packet of another slot is HH_ERROR_DATA. The checksum in it finds damage, not forgery: your transport authenticates. */
+    receiveFrom(slot: number, now_s: number, packet: Uint8Array | string | null): void;
+    /** Confirms and steps the ticks whose inputs are complete, or which have ended on the server's clock; missing inputs are filled by a guess that all machines share. At most 16 a call; `ticks` gets the number. Call several times a tick. Null output: skipped. */
+    confirm(now_s: number): number;
+    /** Writes the next packet to that slot's player. As hh_match_packet. */
+    packetTo(slot: number): Uint8Array;
+    /** Writes the state that a player joins with, `size` bytes, for hh_match_join; send your own state of this tick with it. From now on the player is sent the inputs after it. As hh_world_save; with a null `buffer` nothing changes. HH_MATCH_NO_SLOT: the state for a spectator, who is sent the confirmed inputs after the present tick. */
+    state(slot: number): Uint8Array;
+    /** Steps one tick with an input for each slot, then goes back sync_ticks and steps again. */
+    syncTest(inputs: Given<hh_match_input>[]): hh_match_difference;
+    /** Writes the inputs of all slots in the confirmed ticks after `after`, for hh_match_receive of spectators: over a reliable stream of yours, or into a file, which then has the whole match. `until` gets the last tick written, `after` if there is nothing new: 128 ticks at most, and fewer if the buffer is full. Every 90th tick carries its hash, which the reader compares. HH_ERROR_VALUE if `after` is later than what is confirmed, or too early: 320 ticks are always kept, at most 448. A spectator then needs a state. A null `buffer` asks for HH_MATCH_INPUTS_BYTES; HH_ERROR_CAPACITY for less. */
+    confirmedInputs(after: bigint): { buffer: Uint8Array; until: bigint };
+    /** A player needs hh_match_state and hh_match_join: the world differs from the server's, or inputs are lost for good. A client answers for its own slot only, a spectator for any. */
+    needsState(slot: number): boolean;
+    /** Hash of world and game after a tick: equal on all machines if the tick is confirmed. HH_ERROR_VALUE unless it is the present one or, on a client, one of the 63 before that it has stepped. */
+    hash(tick: bigint): bigint;
+    /** Add these to the drawn positions of a slot's player, so that a corrected guess moves them within 0.12 s and not at once: to head and body, and to each hand with what it holds. m, world axes. For the own slot `head` is for the view too, with hands that hold nothing: it moves when others pull at what you hold. Only for pictures. Zero for servers, spectators and sync tests. */
+    shownOffsets(slot: number): { head: hh_vec3; left: hh_vec3; right: hh_vec3 };
+    /** What the last hh_match_advance, hh_match_confirm, hh_match_join or hh_match_sync_test found, in the order of finding. Servers and sync tests have confirmed events only. Valid until the next call of these or of this function. `event_size`: bytes of hh_match_event as the host knows it; the list's elements lie so far apart. */
+    events(): hh_match_event[];
+    getStats(): hh_match_stats;
+}
