@@ -167,6 +167,8 @@ export const calls = {
     hh_match_needs_state: {"method": "needsState", "of": "hh_match", "returns": "result", "params": [["self", "", "match"], ["value", "u32", "slot"], ["out", "bool", "needs"]]},
     hh_match_hash: {"method": "hash", "of": "hh_match", "returns": "result", "params": [["self", "", "match"], ["value", "u64", "tick"], ["out", "u64", "hash"]]},
     hh_match_shown_offsets: {"method": "shownOffsets", "of": "hh_match", "returns": "result", "params": [["self", "", "match"], ["value", "u32", "slot"], ["out", "hh_vec3", "head"], ["out", "hh_vec3", "left"], ["out", "hh_vec3", "right"]]},
+    hh_match_drawn_player: {"method": "drawnPlayer", "of": "hh_match", "returns": "result", "params": [["self", "", "match"], ["value", "u32", "slot"], ["optional", "hh_tracking_sample", "newest"], ["out", "hh_pose", "origin"], ["out", "hh_pose", "head"], ["out", "hh_pose", "left"], ["out", "hh_pose", "right"]]},
+    hh_match_drawn_bodies: {"method": "drawnBodies", "of": "hh_match", "returns": "result", "params": [["self", "", "match"], ["array", "hh_body", "bodies"], ["count", "bodies"], ["out_array", "hh_pose", "poses", "bodies"]]},
     hh_match_events_sized: {"method": "events", "of": "hh_match", "returns": "result", "params": [["self", "", "match"], ["out_view", "hh_match_event", "events"], ["count_out", "", "count"], ["struct_size", "hh_match_event"]]},
     hh_match_get_stats: {"method": "getStats", "of": "hh_match", "returns": "result", "params": [["self", "", "match"], ["in_out", "hh_match_stats", "stats"]]},
 };

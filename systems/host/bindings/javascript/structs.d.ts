@@ -1129,8 +1129,12 @@ export declare class MatchCalls {
     needsState(slot: number): boolean;
     /** Hash of world and game after a tick: equal on all machines if the tick is confirmed. HH_ERROR_VALUE unless it is the present one or, on a client, one of the 63 before that it has stepped. */
     hash(tick: bigint): bigint;
-    /** Add these to the drawn positions of a slot's player, so that a corrected guess moves them within 0.12 s and not at once: to head and body, and to each hand with what it holds. m, world axes. For the own slot `head` is for the view too, with hands that hold nothing: it moves when others pull at what you hold. Only for pictures. Zero for servers, spectators and sync tests. */
+    /** Add these to the drawn positions of a slot's player, so that a corrected guess moves them within 0.08 s and not at once: to head and body, and to each hand with what it holds. m, world axes. For the own slot `head` is for the view too, with hands that hold nothing: it moves when others pull at what you hold. Only for pictures. Zero for servers, spectators and sync tests. */
     shownOffsets(slot: number): { head: hh_vec3; left: hh_vec3; right: hh_vec3 };
+    /** Where to draw a slot's player between two ticks, for displays of another rate than the tick's: at the time up to which hh_match_ticks_due has been called, less one tick, which lies between the last two shown ticks. Call after the ticks of a picture. With hh_match_shown_offsets already. World poses: `origin` is the space of the samples, for the camera rig; `head`; and wrists to draw. A play space that is moved or turned at once, by a teleport or a snap turn, is not drawn in between. `newest`, for the own slot: the devices at the time of the picture, of any time_s. Head and empty hands are then drawn where they are, and not late. Null: between ticks, as everything else. Fingers go with their wrist; arms, spine and legs with the head. Never changes the world. Clients and spectators. HH_ERROR_STATE before the first shown tick, and after hh_match_join. */
+    drawnPlayer(slot: number, newest: Given<hh_tracking_sample> | null): { origin: hh_pose; head: hh_pose; left: hh_pose; right: hh_pose };
+    /** The same for bodies: poses as of hh_world_body_poses. A body that is held goes with its hands. */
+    drawnBodies(bodies: Given<hh_body>[]): hh_pose[];
     /** What the last hh_match_advance, hh_match_confirm, hh_match_join or hh_match_sync_test found, in the order of finding. Servers and sync tests have confirmed events only. Valid until the next call of these or of this function. `event_size`: bytes of hh_match_event as the host knows it; the list's elements lie so far apart. */
     events(): hh_match_event[];
     getStats(): hh_match_stats;

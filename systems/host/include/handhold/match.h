@@ -206,7 +206,7 @@ HH_API hh_result hh_match_needs_state(const hh_match* match, uint32_t slot, uint
 HH_API hh_result hh_match_hash(const hh_match* match, uint64_t tick, uint64_t* hash);
 
 /* Add these to the drawn positions of a slot's player, so that a corrected guess moves them within
- * 0.12 s and not at once: to head and body, and to each hand with what it holds. m, world axes. For
+ * 0.08 s and not at once: to head and body, and to each hand with what it holds. m, world axes. For
  * the own slot `head` is for the view too, with hands that hold nothing: it moves when others pull
  * at what you hold. Only for pictures. Zero for servers, spectators and sync tests. */
 HH_API hh_result hh_match_shown_offsets(const hh_match* match, uint32_t slot, hh_vec3* head,
