@@ -13,7 +13,7 @@ function(handhold_library_from_sources name alias include_dir)
   add_library(${alias} ALIAS ${name})
   target_include_directories(${name} SYSTEM PUBLIC ${include_dir})
   target_compile_options(${name} PRIVATE -w -ffp-contract=off)
-  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF POSITION_INDEPENDENT_CODE ON)
+  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF POSITION_INDEPENDENT_CODE ${handhold_position_independent})
 endfunction()
 
 set(bullet ${HANDHOLD_SOURCES}/bullet/src)
