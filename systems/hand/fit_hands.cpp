@@ -34,9 +34,9 @@ double straight_rad(const FingerRig& finger, std::size_t link) {
     return std::clamp(0.0, finger.lower_rad[link], finger.upper_rad[link]);
 }
 
-// Angles of a gripping hand's digit that has nothing to touch.
-FingerAngles loose_fist(const FingerRig& finger, const ThumbTuning& tuning) {
-    FingerAngles angles = coupled_angles(finger, k_loose_fist_curl);
+// Angles of a digit of a gripping hand that has nothing to touch.
+FingerAngles fist(const FingerRig& finger, const ThumbTuning& tuning) {
+    FingerAngles angles = coupled_angles(finger, k_fist_curl);
     if (finger.name == FingerName::thumb) {
         angles.opposition_rad = rest_opposition_rad(finger, tuning);
     }
@@ -70,8 +70,8 @@ void pose_unsupported_hand(const HandSurroundings& hand, const HandTracking& tra
         if (pose.is_authored[f]) {
             pose.target[f] = pose.closed[f];
         } else {
-            pose.target[f] = hand.is_gripping ? loose_fist(finger, tuning)
-                                              : empty_angles(finger, tracking, tuning);
+            pose.target[f] =
+                hand.is_gripping ? fist(finger, tuning) : empty_angles(finger, tracking, tuning);
         }
     }
     pose.fitted_body = k_no_entity;

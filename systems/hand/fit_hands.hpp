@@ -56,7 +56,7 @@ struct FitHandsIo {
 //
 // A palm in an authored grip keeps the authored wrist. Digits with an authored pose keep it, or
 // move to their pressed pose with the trigger; other digits do not depend on the trigger. A
-// gripping hand without a surface is a loose fist. Fingers of an empty hand bend from the rest
+// gripping hand without a surface is a fist. Fingers of an empty hand bend from the rest
 // pose by HandTracking::squeeze, the index finger at least by the trigger; once the button counts
 // as pressed the hand is a fist. A finger of known curl (HandTracking::curls) is bent as far as
 // that, from straight to a fist.

@@ -18,8 +18,6 @@ inline constexpr double k_thumb_below_rad = 1.0471975511965976;
 
 // Curl of a fist as a share of the range from open to fully curled.
 inline constexpr double k_fist_curl = 0.85;
-// The same for a loose fist, the pose of a gripping digit that touches nothing.
-inline constexpr double k_loose_fist_curl = 0.5;
 // Curl of a hinge in a fist, radians.
 inline double fist_rad(const FingerRig& finger, std::size_t link) {
     return finger.lower_rad[link] + k_fist_curl * (finger.upper_rad[link] - finger.lower_rad[link]);

@@ -14,7 +14,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / "tools" / "lab" / "grip_report"
 sys.path.insert(0, str(ROOT / "tools" / "lab"))
-from grips import glb, primitives, report, warm
+from grips import code_size, glb, labels, primitives, report, warm
 from pages import files, svg
 from pages.goals import limit_goal
 
@@ -39,6 +39,45 @@ class Goals(unittest.TestCase):
         verdicts = [goal.verdict() for goal in report.goals(whole, None, None, warm_figures, 0.051)]
         self.assertEqual(verdicts[:18] + verdicts[-1:], ["met", "MISSED", "MISSED", "met", "not run", "MISSED", "met", "MISSED", "met", "MISSED", "MISSED",
                                          "met", "MISSED", "met", "MISSED", "MISSED", "MISSED", "met", "MISSED"])
+
+
+class Labels(unittest.TestCase):
+    def test_shares_have_the_bounds_of_a_binomial_and_goals_read_them(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "labels.csv"
+            path.write_text("sheet,row,column,label,reason\n" + 90 * "0,0,0,convincing,\n" + 10 * "0,0,0,ugly,claw\n")
+            shares = labels.shares(path)
+            path.write_text("sheet,row,column,label,reason\n0,0,0,good,\n")
+            self.assertRaisesRegex(files.FormatError, "line 2: label", labels.shares, path)
+        self.assertEqual([shares[word]["value"] for word in ("convincing", "acceptable", "ugly")], [0.9, 0.0, 0.1])
+        # Wilson's interval of 90 of 100: 82.6 and 94.5 % (Brown, Cai, DasGupta, Interval estimation for a binomial proportion, 2001).
+        self.assertAlmostEqual(shares["convincing"]["low"], 0.826, 3)
+        self.assertAlmostEqual(shares["convincing"]["high"], 0.945, 3)
+        verdicts = {goal.bar: goal.verdict() for goal in report.label_goals({"near": shares})}
+        self.assertEqual([verdicts[f"{word}, by people: near"] for word in ("convincing", "ugly")], ["met", "MISSED"])
+        self.assertEqual(verdicts["ugly, by people: play"], "not run")
+
+
+class CodeSize(unittest.TestCase):
+    def test_lines_members_and_values_are_counted(self):
+        with tempfile.TemporaryDirectory() as folder:
+            root = Path(folder)
+            self.assertIsNone(code_size.count(root))
+            (root / "systems/hand").mkdir(parents=True)
+            (root / "components").mkdir()
+            (root / "systems/hand/a.cpp").write_text("int a;\n\nint b;\n")
+            structs = {"hand.hpp": code_size.STATE, "tuning.hpp": code_size.TUNING}
+            for name, each in structs.items():
+                (root / "components" / name).write_text("".join(
+                    f"struct {one} {{\n    static constexpr int k = 1;\n    int a = 0;  // of b;\n    // c;\n    int d[2] = {{}};\n}};\n" for one in each))
+            self.assertEqual(code_size.count(root), {"lines": 3, "state": 6, "tuning": 6})
+        goals = report.code_goals({"lines": 5500, "state": 21, "tuning": 14})
+        self.assertEqual([goal.verdict() for goal in goals], ["met", "MISSED", "met"])
+
+    def test_the_sources_have_what_is_counted(self):
+        found = code_size.count(ROOT)
+        self.assertTrue(all(found[name] > 0 for name in ("lines", "state", "tuning")))
+        self.assertTrue(all(list(ROOT.glob(pattern)) for pattern in code_size.SOURCES))
 
 
 class Warm(unittest.TestCase):
@@ -78,8 +117,12 @@ class Warm(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "grips.jsonl"
             path.write_text("".join(json.dumps({"us": us}) + "\n" for us in ([900.0], [700.0] + 6 * [300.0] + [20.0, 40.0])))
-            self.assertEqual(warm.played(path), {"closing_us": {"median": 800.0, "p99": 898.0}, "after_us": {"median": 300.0, "p99": 300.0},
-                                                 "later_us": {"median": 30.0, "p99": 39.8}})
+            found = warm.played(path)
+        values = {name: {title: one["value"] for title, one in each.items()} for name, each in found.items()}
+        self.assertEqual(values, {"closing_us": {"median": 800.0, "p99": 898.0}, "after_us": {"median": 300.0, "p99": 300.0},
+                                  "later_us": {"median": 30.0, "p99": 39.8}})
+        self.assertEqual([found["closing_us"]["median"][side] for side in ("low", "high")], [700.0, 900.0])
+        self.assertEqual([found["later_us"]["p99"][side] for side in ("low", "high")], [39.8, 39.8])
 
     def test_invalid_file_is_refused(self):
         with tempfile.TemporaryDirectory() as folder:

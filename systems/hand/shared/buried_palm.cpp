@@ -36,7 +36,7 @@ std::optional<Exit> exit_of(const GripMesh& mesh, const Vec3& inside, double rea
                : std::optional(Exit{near->point, mesh.contact.normals[near->triangle], depth_m});
 }
 
-// Calls visit(center_hs, radius_m) for the ends of all capsules of a loose fist.
+// Calls visit(center_hs, radius_m) for the ends of all capsules of a fist.
 template <typename Visit>
 void visit_fist(const HandRig& rig, const Visit& visit) {
     for (const PalmCapsule& capsule : rig.palm) {
@@ -44,7 +44,7 @@ void visit_fist(const HandRig& rig, const Visit& visit) {
         visit(capsule.b_hs, capsule.radius_m);
     }
     for (const FingerRig& finger : rig.fingers) {
-        const auto points = finger_points(finger, coupled_angles(finger, k_loose_fist_curl));
+        const auto points = finger_points(finger, coupled_angles(finger, k_fist_curl));
         for (std::size_t i = 0; i < finger.link_count; ++i) {
             visit(points[i], finger.radius_m[i]);
             visit(points[i + 1], finger.radius_m[i]);
@@ -52,7 +52,7 @@ void visit_fist(const HandRig& rig, const Visit& visit) {
     }
 }
 
-// Of the deepest capsule end of a loose fist.
+// Of the deepest capsule end of a fist.
 std::optional<Exit> exit_of_fist(const GripMesh& mesh, const HandRig& rig, const Pose& wrist,
                                  double reach_m) {
     std::optional<Exit> deepest;
@@ -65,7 +65,7 @@ std::optional<Exit> exit_of_fist(const GripMesh& mesh, const HandRig& rig, const
     return deepest;
 }
 
-// How far a loose fist reaches behind the plane.
+// How far a fist reaches behind the plane.
 double depth_m(const HandRig& rig, const Pose& wrist, const Exit& plane) {
     double deepest_m = 0.0;
     visit_fist(rig, [&](const Vec3& center_hs, double radius_m) {

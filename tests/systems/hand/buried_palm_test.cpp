@@ -156,7 +156,7 @@ TEST(BuriedPalm, HandOutsideOrBehindASheetStaysWhereItIsTracked) {
         }
         for (const FingerRig& finger : rig.fingers) {
             for (const Vec3& joint_hs :
-                 finger_points(finger, coupled_angles(finger, k_loose_fist_curl))) {
+                 finger_points(finger, coupled_angles(finger, k_fist_curl))) {
                 lowest = std::min(lowest, transform_point(wrist, joint_hs).y());
             }
         }

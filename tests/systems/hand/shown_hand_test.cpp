@@ -210,9 +210,9 @@ TEST_F(ShownHand, EmptyHandTakesRestPoseOrFist) {
 }
 
 // Hands at random, 4 to 6 cm before a floor, whose palm is turned away from it by more than 75
-// degrees. They have nothing to grip: they stay where they are tracked and close to a loose fist,
+// degrees. They have nothing to grip: they stay where they are tracked and close to a fist,
 // whatever their button and their curls say.
-TEST_F(ShownHand, GrippingHandWithItsBackOrEdgeToASurfaceIsALooseFist) {
+TEST_F(ShownHand, GrippingHandWithItsBackOrEdgeToASurfaceIsAFist) {
     Random random(2104);
     for (int i = 0; i < 2000; ++i) {
         const double height_m = random.between(0.04, 0.06);
@@ -228,7 +228,7 @@ TEST_F(ShownHand, GrippingHandWithItsBackOrEdgeToASurfaceIsALooseFist) {
         EXPECT_EQ(hand.palm.at(k_right).pose_ws.position, hand.wrist_bs().position);
         for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
             EXPECT_EQ(hand.pose().shown[f].curl_rad,
-                      coupled_angles(rig.fingers[f], k_loose_fist_curl).curl_rad);
+                      coupled_angles(rig.fingers[f], k_fist_curl).curl_rad);
         }
     }
 }

@@ -9,6 +9,7 @@ from . import scoring, style
 
 
 MOST_TIP_MM = 0.05
+LABELLED = {"near": (85, 1), "harsh": (65, 4), "play": (85, 2)}  # kinds of sheets: convincing, ugly, in %
 
 
 def bounded_goal(title, found, limit, unit, scale=1.0, at_least=False):
@@ -36,20 +37,33 @@ def critic_goals(whole):
         of = lambda name: shares.get(name) if isinstance(shares, dict) else None
         goals += [bounded_goal(f"expected convincing, {kind} placements", of("convincing"), convincing, "%", 100.0, at_least=True),
                   bounded_goal(f"expected ugly, {kind} placements", of("ugly"), ugly, "%", 100.0)]
-    return goals + [limit_goal("tip gap of the worst finger: median", figure(whole, "worst_tip_mm", "median"), 4, "mm")]
+    return goals + [bounded_goal("tip gap of the worst finger: median", figure(whole, "worst_tip_median_mm"), 4, "mm")]
 
 
 def played_goals(played):
     """Costs in recorded sessions (warm.played)."""
     rows = (("closing hand", "closing_us", 500, 1000), ("each of six frames after", "after_us", 500, 1000), ("later frames", "later_us", 50, 250))
-    return [limit_goal(f"{title}, recorded play: {name}", figure(played, key, quantile), limit, "us")
+    return [bounded_goal(f"{title}, recorded play: {name}", figure(played, key, quantile), limit, "us")
             for title, key, *limits in rows for name, quantile, limit in zip(("median", "99th percentile"), ("median", "p99"), limits)]
 
 
-def goals(whole, flat, nasty, warm, worst_tip_mm, played=None, unseen=None):
+def label_goals(people):
+    """Shares that people named (labels.shares), by kind of sheet; a missing kind was not shown to people."""
+    return [bounded_goal(f"{word}, by people: {kind}", figure(people, kind, word), limit, "%", 100.0, at_least=word == "convincing")
+            for kind, both in LABELLED.items() for word, limit in zip(("convincing", "ugly"), both)]
+
+
+def code_goals(size):
+    """Size of the code (code_size.count)."""
+    return [limit_goal(title, float(figure(size, name)), limit, "")
+            for title, name, limit in (("lines of code of hands and their geometry", "lines", 5500), ("state fields of a shown hand", "state", 20),
+                                       ("tuning values of palm, fingers and thumb", "tuning", 14))]
+
+
+def goals(whole, flat, nasty, warm, worst_tip_mm, played=None, unseen=None, people=None, size=None):
     """whole: figures of objects, level and primitives; flat: of boxes, plates, rails; nasty: of broken meshes; warm: of hands that move
     as recorded, and stand (warm.py); worst_tip_mm: of chains against the oracle; played: costs in recorded sessions (warm.played); unseen:
-    figures of another hand's rig. None: not run."""
+    figures of another hand's rig; people: {kind: labels.shares}; size: code_size.count. None: not run."""
     deep = lambda figures, part: percent(figure(figures, "deep_share", part))
     return [
         limit_goal("pops per disc, cold: median", figure(whole, "visited_per_disc", "median"), 2, ""),
@@ -72,7 +86,7 @@ def goals(whole, flat, nasty, warm, worst_tip_mm, played=None, unseen=None):
         limit_goal("hands with non-finite numbers", float(figure(whole, "not_finite")), 0, ""),
         limit_goal("the same, broken meshes", float(figure(nasty, "not_finite")), 0, ""),
         *style_goals(whole), bounded_goal("any part, palm included, deeper than 3 mm", figure(whole, "style", "part_deep"), 1.5, "%", 100.0),
-        *critic_goals(whole), *played_goals(played),
+        *label_goals(people), *critic_goals(whole), *played_goals(played), *code_goals(size),
         limit_goal("another hand's rig: fingers within 2 mm", percent(figure(unseen, "fingers_within_2_mm", "four")), 90, "%", at_least=True),
         limit_goal("tip of a closed chain, distance from the oracle's: worst", worst_tip_mm, MOST_TIP_MM, "mm"),
     ]

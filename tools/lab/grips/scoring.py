@@ -113,9 +113,9 @@ def critic_figures(measured, near=None):
     return {name: style.bounded(style.mean_of, [row[:, critic.LABELS.index(name)] for row in rows]) for name in ("convincing", "ugly")}
 
 
-def worst_tips_mm(measured):
-    """Gap of the farthest finger's end, of each used hand with a finger."""
-    tips = np.concatenate([one.tip_mm[one.used, style.FOUR] for one in measured])
+def worst_tips_mm(one):
+    """Gap of the farthest finger's end, of each used hand of a file that has a finger."""
+    tips = one.tip_mm[one.used, style.FOUR]
     tips = tips[np.isfinite(tips).any(1)]
     return np.nanmax(tips, 1) if len(tips) else np.zeros(0)
 
@@ -140,7 +140,10 @@ def figures(measured):
     }
     result["style"] = style.figures(measured)
     result["critic"] = {"all": critic_figures(measured), "near": critic_figures(measured, True), "harsh": critic_figures(measured, False)}
-    result["worst_tip_mm"] = spread(worst_tips_mm(measured))
+    tips = [tip for tip in map(worst_tips_mm, measured) if len(tip)]
+    result["worst_tip_mm"] = spread(np.concatenate(tips) if tips else ())
+    if tips:
+        result["worst_tip_median_mm"] = style.bounded(lambda drawn: float(np.median(np.concatenate(drawn))), tips)
     known = [one for one in measured if one.near is not None]
     if known:
         result["sync_mm_near"] = spread([grasp.sync_mm for one in known for grasp, near in zip(one.grasps, one.near) if near and grasp.gripped])

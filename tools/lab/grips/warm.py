@@ -7,6 +7,7 @@ import numpy
 
 from pages import files
 
+DRAWS = 500  # of the bootstrap
 LISTS = ("moving_us", "stand_us")
 COUNTS = ("joint_frames", "jumps", "shown_jumps")
 
@@ -27,13 +28,24 @@ def record(lab, data, out):
 
 
 def played(path, tries=6):
-    """Costs of the recorded grips: the frame of the onset, the `tries` frames after it, and later ones. {name: {median, p99}}."""
-    frames = {"closing_us": [], "after_us": [], "later_us": []}
-    for _, grip in files.read_jsonl(path):
-        us = files.member(grip, "us", path)
-        for name, part in zip(frames, (us[:1], us[1:1 + tries], us[1 + tries:])):
-            frames[name] += part
-    return {name: {"median": float(numpy.median(us)), "p99": float(numpy.percentile(us, 99))} for name, us in frames.items() if us}
+    """Costs of the recorded grips: the frame of the onset, the `tries` frames after it, and later ones. {name: {median, p99}}, each with
+    95 % bounds of a bootstrap that draws whole grips."""
+    parts = {"closing_us": slice(0, 1), "after_us": slice(1, 1 + tries), "later_us": slice(1 + tries, None)}
+    grips = [numpy.asarray(files.member(grip, "us", path), float) for _, grip in files.read_jsonl(path)]
+    found = {}
+    for name, part in parts.items():
+        frames = [us[part] for us in grips if us[part].size]
+        if frames:
+            found[name] = {title: bounded_percentile(frames, share) for title, share in (("median", 50), ("p99", 99))}
+    return found
+
+
+def bounded_percentile(grips, share):
+    """Percentile of all values of several arrays, with its bounds."""
+    rng = numpy.random.default_rng(1)
+    draws = [numpy.percentile(numpy.concatenate([grips[i] for i in rng.integers(0, len(grips), len(grips))]), share) for _ in range(DRAWS)]
+    low, high = numpy.percentile(draws, (2.5, 97.5))
+    return {"value": float(numpy.percentile(numpy.concatenate(grips), share)), "low": float(low), "high": float(high)}
 
 
 def read(path):
