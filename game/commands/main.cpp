@@ -186,7 +186,8 @@ void add_play_options(CLI::App& play, handhold::PlayOptions& options) {
                     "How much the edges darken at speed, 0 to 1")
         ->check(number_in(0.0, 1.0));
     play.add_flag("--inspector", options.panels.inspector, "Open the inspector at once (F2)");
-    add_choice(play, "--page", options.page, {"Frame", "Hands", "Tuning", "Entities", "Gizmos"},
+    add_choice(play, "--page", options.page,
+               {"Frame", "Hands", "Bodies", "Tuning", "Entities", "Gizmos"},
                "The inspector's page that is open");
     play.add_flag_callback(
         "--gizmos", [&options] { options.gizmos.fill(true); }, "Show what every stage did");

@@ -3,7 +3,6 @@
 #include <optional>
 #include <vector>
 
-#include "components/world.hpp"
 #include "engine/core/result.hpp"
 #include "game/commands/run_command.hpp"
 #include "game/run/session_run.hpp"

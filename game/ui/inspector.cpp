@@ -302,6 +302,7 @@ void show_inspector(const InspectorView& view) {
         };
         page("Frame", show_frame_page);
         page("Hands", show_hands_page);
+        page("Bodies", show_bodies_page);
         page("Tuning", show_tuning_page);
         page("Entities", show_entities_page);
         page("Gizmos", show_gizmos_page);

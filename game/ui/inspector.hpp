@@ -32,12 +32,13 @@ struct InspectorView {
     const PlayTally& tally;
     InspectorMemory& memory;
 };
-// A panel with pages for the frame, the hands, tuning, entities and gizmos.
+// A panel with pages for the frame, the hands, bodies, tuning, entities and gizmos.
 void show_inspector(const InspectorView& view);
 
 // The pages of the inspector.
 void show_frame_page(const InspectorView& view);
 void show_hands_page(const InspectorView& view);
+void show_bodies_page(const InspectorView& view);
 void show_tuning_page(const InspectorView& view);
 void show_entities_page(const InspectorView& view);
 void show_gizmos_page(const InspectorView& view);

@@ -13,7 +13,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / "tools" / "lab" / "fit_body"
 sys.path.insert(0, str(ROOT / "tools" / "lab"))
-from bodies import choosing, constants, estimator, fades, fitting, network, recordings, scoring, situations, sweeps
+from bodies import choosing, constants, direct, estimator, fades, fitting, mixing, network, recordings, scoring, situations, sweeps
 
 SIDES = "lr"
 
@@ -70,6 +70,24 @@ class Inputs(unittest.TestCase):
         np.testing.assert_allclose(estimator.wrapped(yaw - motion.yaw), 0.0, atol=1e-12)
 
 
+    def test_mixed_arms_keep_their_shape_and_turn_with_the_chest(self):
+        motion = Motion(np.random.default_rng(8), 200)
+        mixed = mixing.mixed(motion, 3)
+        self.assertEqual(len(mixed.yaw), int((1.0 + mixing.MIXED + mixing.CROSSED) * 200))
+        for name in ("yaw", "eye_m", "shoulder_m", "hand_m", "elbow_m", "hand"):
+            kept = getattr(mixed, name)
+            np.testing.assert_array_equal(kept[..., :200] if kept.ndim == 1 else kept[:200] if len(kept) != 2 else kept[:, :200], getattr(motion, name))
+        bones = lambda each: scoring.distance(each.shoulder_m, each.elbow_m)
+        self.assertTrue(np.all(np.abs(bones(mixed)[:, 200:, None] - bones(motion)[:, None]).min(-1) < 1e-9))
+        self.assertTrue(mixing.crossed(mixed)[200 + int(mixing.MIXED * 200):].mean() > 0.5)
+
+    def test_arms_of_the_own_frame_change_nothing(self):
+        motion = Motion(np.random.default_rng(9), 50)
+        own = mixing.with_arms_of(motion, motion)
+        for name in ("hand_m", "elbow_m", "hand"):
+            np.testing.assert_allclose(getattr(own, name), getattr(motion, name), atol=1e-12)
+
+
 class Gradients(unittest.TestCase):
     def test_pole_gradient_is_the_slope_of_its_loss(self):
         random = np.random.default_rng(4)
@@ -88,6 +106,21 @@ class Gradients(unittest.TestCase):
             change = np.zeros_like(pole)
             change[place] = 1e-5
             self.assertAlmostEqual(slope[place], (loss(pole + change) - loss(pole - change)) / 2e-5, delta=2e-3)
+
+    def test_turn_gradient_is_the_slope_of_its_loss(self):
+        random = np.random.default_rng(10)
+        outputs, wanted = 0.4 * random.standard_normal((6, 2)), estimator.unit(random.standard_normal((6, 2)))
+
+        def loss(outputs):
+            facing = outputs + [0.0, 1.0]
+            length = np.linalg.norm(facing, axis=-1)
+            return np.sum(np.sqrt(2.0 * (1.0 - np.sum(facing * wanted, -1) / length) + 0.01) + 0.01 * (length - 1.0) ** 2)
+
+        slope = direct.turn_gradient(outputs, wanted, np.ones((6, 1)))
+        for place in np.ndindex(outputs.shape):
+            change = np.zeros_like(outputs)
+            change[place] = 1e-6
+            self.assertAlmostEqual(slope[place], (loss(outputs + change) - loss(outputs - change)) / 2e-6, delta=1e-4)
 
     def test_network_learns_a_function_of_its_inputs(self):
         random = np.random.default_rng(5)
@@ -206,28 +239,13 @@ class Situations(unittest.TestCase):
                 np.testing.assert_allclose(-rotation[..., 2], estimator.unit(wrist - elbow), atol=1e-6, err_msg=name)
 
 
-def header_network(text, name):
-    """The network of body_constants.hpp."""
-    body = text[text.index(f"k_{name}_network = "):]
-    inputs, hidden, outputs = (int(each) for each in re.search(rf"k_{name}_inputs = (\d+);.*k_{name}_outputs = (\d+);.*?k_{name}_inputs, (\d+),", text, re.S)
-                               .group(1, 3, 2))
-    body = body[:body.index(";")]
-    lists = [np.array(re.findall(r"(-?[\d.]+(?:e[-+]?\d+)?)F", part), np.float32) for part in body.split("{\n")[2:8]]
-    result = network.Network(np.zeros((2, inputs)), hidden, np.ones(outputs), np.random.default_rng(0))
-    result.familiar, result.foreign = (float(each) for each in body[body.rindex("}},") + 3:body.rindex("}")].split(","))
-    result.mean, result.deviation = lists[0], 1.0 / lists[1]
-    result.weights, result.bias = [lists[2].reshape(inputs, hidden), lists[4].reshape(hidden, outputs)], [lists[3], lists[5]]
-    return result
-
-
 @unittest.skipUnless(os.environ.get("HANDHOLD_LAB"), "no handhold-lab")
 class Runtime(unittest.TestCase):
     """Each clip has one frame, in which the runtime's low-pass filters start: all its answers must equal the numpy estimator's."""
 
     def test_bodies_are_those_that_were_fitted(self):
         text = (ROOT / "systems/body/shared/body_constants.hpp").read_text()
-        constant = lambda name: float(re.search(rf"k_{name} = (\S+);", text).group(1))
-        constants_of = lambda names: {name: constant(name) for name in names}
+        form = constants.read(text)
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             self.write_single_frames(folder)
@@ -240,12 +258,9 @@ class Runtime(unittest.TestCase):
             lines = [line.split(",") for line in out.read_text().splitlines()[1:]]
         motion = estimator.Motion(recording, truth, clips, 1000.0)
         motion.looks = np.tile(motion.look, (3, 1))
-        chest, network_of_chest = fitting.Chest(motion, constants_of(estimator.CHEST_START)), header_network(text, "chest")
-        yaw, resting = chest.corrected(network_of_chest)
-        arms = fitting.Arms(motion, yaw, resting, constants_of(estimator.FADE_START))
-        rest = [float(each) for each in re.search(r"k_pole_rest = \{(.*)\};", text).group(1).split(",")]
-        pole = dict(zip(("rest_x", "rest_y", "rest_z"), rest)) | {name: constant(f"pole_{name}") for name in ("fingers", "back", "thumb")}
-        elbows = [circles.elbow_m(circles.bend(each)) for circles, each in zip(arms.circles, arms.poles(pole, header_network(text, "elbow")))]
+        yaw, resting = fitting.Chest(motion, form.talked).corrected(form.chest)
+        arms = fitting.Arms(motion, yaw, resting, form.fade)
+        elbows = [circles.elbow_m(circles.bend(each)) for circles, each in zip(arms.circles, arms.poles(form.pole, form.elbow))]
         measured = np.array(lines, float)
         np.testing.assert_allclose(estimator.wrapped(np.radians(measured[:, 2]) - yaw), 0.0, atol=1e-4)
         for place, expected in enumerate([*arms.shoulders_m, *elbows]):

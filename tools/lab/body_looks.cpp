@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/math/scalar_rotation.hpp"
+
 namespace handhold::lab {
 namespace {
 
@@ -45,6 +47,43 @@ double between_legs_m(const SpinePose& spine) {
     return least_m;
 }
 
+// Whether elbow and forearm are inside the trunk, and the wrist bent, with the elbow at a place.
+struct ArmLook {
+    bool elbow, forearm, wrist;
+};
+
+template <typename InTrunk>
+ArmLook look_of(const Vec3& elbow, const ArmPose::Arm& arm, const InTrunk& in_trunk) {
+    const Vec3 forearm = arm.hand_ws.position - elbow;
+    ArmLook look{};
+    look.elbow = in_trunk(elbow);
+    for (const double share : {0.0, 0.25, 0.5, 0.75}) {
+        look.forearm = look.forearm || in_trunk(elbow + share * forearm);
+    }
+    look.wrist = angle_rad(forearm, arm.hand_ws.rotation * -Vec3::UnitZ()) > k_bent_wrist_rad;
+    return look;
+}
+
+// For each look whether the arm has it at every turn of the elbow about the line from shoulder to
+// hand.
+template <typename InTrunk>
+ArmLook unavoidable(const ArmPose::Arm& arm, const InTrunk& in_trunk) {
+    constexpr int k_turns = 72;
+    const Vec3& shoulder = arm.upper_ws.position;
+    const Vec3 line = arm.hand_ws.position - shoulder;
+    ArmLook all = look_of(arm.forearm_ws.position, arm, in_trunk);
+    if (line.norm() < 1e-6) {
+        return all;
+    }
+    for (int i = 1; i < k_turns; ++i) {
+        const Quat turn = rotation_about(line.normalized(), i * 2.0 * k_pi / k_turns);
+        const ArmLook look =
+            look_of(shoulder + turn * (arm.forearm_ws.position - shoulder), arm, in_trunk);
+        all = {all.elbow && look.elbow, all.forearm && look.forearm, all.wrist && look.wrist};
+    }
+    return all;
+}
+
 }  // namespace
 
 void BodyLooks::take(const SpinePose& spine, const ArmPose& arms, double scale, const Quat& to_ps,
@@ -71,14 +110,17 @@ void BodyLooks::take(const SpinePose& spine, const ArmPose& arms, double scale, 
         }
     }
     for (const ArmPose::Arm& arm : arms.arms) {
-        const Vec3& elbow = arm.forearm_ws.position;
-        const Vec3 forearm = arm.hand_ws.position - elbow;
-        frame.elbow = frame.elbow || in_trunk(elbow);
-        for (const double share : {0.0, 0.25, 0.5, 0.75}) {
-            frame.forearm = frame.forearm || in_trunk(elbow + share * forearm);
+        const ArmLook look = look_of(arm.forearm_ws.position, arm, in_trunk);
+        frame.elbow = frame.elbow || look.elbow;
+        frame.forearm = frame.forearm || look.forearm;
+        frame.wrist = frame.wrist || look.wrist;
+        frame.hand = frame.hand || in_trunk(arm.hand_ws.position);
+        if (look.elbow || look.forearm || look.wrist) {
+            const ArmLook forced = unavoidable(arm, in_trunk);
+            frame.avoidable_elbow = frame.avoidable_elbow || (look.elbow && !forced.elbow);
+            frame.avoidable_forearm = frame.avoidable_forearm || (look.forearm && !forced.forearm);
+            frame.avoidable_wrist = frame.avoidable_wrist || (look.wrist && !forced.wrist);
         }
-        frame.wrist = frame.wrist ||
-                      angle_rad(forearm, arm.hand_ws.rotation * -Vec3::UnitZ()) > k_bent_wrist_rad;
     }
     frames_.push_back(frame);
     take_feet(spine, to_ps, dt_s);
@@ -114,6 +156,10 @@ nlohmann::ordered_json BodyLooks::json() const {
             {"elbows_in_trunk_pct", percent(&Frame::elbow)},
             {"forearms_in_trunk_pct", percent(&Frame::forearm)},
             {"bent_wrists_pct", percent(&Frame::wrist)},
+            {"hands_in_trunk_pct", percent(&Frame::hand)},
+            {"avoidable_elbows_pct", percent(&Frame::avoidable_elbow)},
+            {"avoidable_forearms_pct", percent(&Frame::avoidable_forearm)},
+            {"avoidable_wrists_pct", percent(&Frame::avoidable_wrist)},
             {"foot_mps_max", foot_mps_.max()},
             {"foot_step_mps_max", foot_step_mps_.max()}};
 }

@@ -31,9 +31,12 @@ class BodyLooks {
     // Share of frames, percent, for each look; speeds of the feet relative to the chest.
     nlohmann::ordered_json json() const;
 
-    // The looks of a frame, in the order of json().
+    // The looks of a frame, in the order of json(). avoidable_...: a turn of the elbow about the
+    // line from shoulder to hand would do; the others follow from where shoulder and hand are.
     struct Frame {
         bool straight, crossed, high, ball, elbow, forearm, wrist;
+        bool hand;  // a wrist within k_inside_trunk_m of the trunk's line
+        bool avoidable_elbow, avoidable_forearm, avoidable_wrist;
     };
     const std::vector<Frame>& frames() const { return frames_; }
 

@@ -125,16 +125,18 @@ class ShownBody {
     // One line for each frame.
     std::string csv() const {
         std::string text =
-            "frame,trunk_mm,pelvis_mm,thigh_mm,shin_mm,foot_mps,straight,crossed,high,ball,elbow,"
+            "frame,chest_mm,trunk_mm,pelvis_mm,thigh_mm,shin_mm,foot_mps,straight,crossed,high,"
+            "ball,elbow,"
             "forearm,wrist\n";
         for (std::size_t i = 0; i < trunk_mm_.values.size(); ++i) {
             const BodyLooks::Frame& look = looks_.frames()[i];
             std::array<char, 128> row{};
             std::snprintf(row.data(), row.size(),
-                          "%zu,%.2f,%.2f,%.2f,%.2f,%.2f,%d,%d,%d,%d,%d,%d,%d\n", i + 1,
-                          trunk_mm_.values[i], pelvis_mm_.values[i], thigh_mm_.values[i],
-                          shin_mm_.values[i], i == 0 ? 0.0 : foot_mps_.values[i - 1], look.straight,
-                          look.crossed, look.high, look.ball, look.elbow, look.forearm, look.wrist);
+                          "%zu,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%d,%d,%d,%d,%d,%d,%d\n", i + 1,
+                          chest_mm_.values[i], trunk_mm_.values[i], pelvis_mm_.values[i],
+                          thigh_mm_.values[i], shin_mm_.values[i],
+                          i == 0 ? 0.0 : foot_mps_.values[i - 1], look.straight, look.crossed,
+                          look.high, look.ball, look.elbow, look.forearm, look.wrist);
             text += row.data();
         }
         return text;
@@ -146,7 +148,8 @@ class ShownBody {
                         {"p90", series.quantile(0.9)},
                         {"max", series.max()}};
         };
-        return {{"trunk_depth_mm", spread(trunk_mm_)},
+        return {{"chest_depth_mm", spread(chest_mm_)},
+                {"trunk_depth_mm", spread(trunk_mm_)},
                 {"pelvis_depth_mm", spread(pelvis_mm_)},
                 {"thigh_depth_mm", spread(thigh_mm_)},
                 {"shin_depth_mm", spread(shin_mm_)},
@@ -165,7 +168,9 @@ class ShownBody {
         const auto depth_mm = [&](const Vec3& from, const Vec3& to, double radius_m) {
             return 1e3 * deepest_m(walls_, collision, viewpoints, {from, to, scale * radius_m});
         };
-        // Leaves out the trunk's upper end: it follows the head and the hands, which are tracked.
+        // The trunk's upper end follows the head and the hands, which are tracked: it counts alone.
+        chest_mm_.add(
+            depth_mm(spine.chest_ws.position, spine.spine_ws[1].position, k_trunk_radius_m));
         trunk_mm_.add(
             depth_mm(spine.spine_ws[1].position, spine.pelvis_ws.position, k_trunk_radius_m));
         pelvis_mm_.add(
@@ -219,7 +224,7 @@ class ShownBody {
     std::array<Entity, k_hand_count> hands_;
     double hz_;
     BodyLooks looks_;
-    Series trunk_mm_, pelvis_mm_, thigh_mm_, shin_mm_;
+    Series chest_mm_, trunk_mm_, pelvis_mm_, thigh_mm_, shin_mm_;
     Series from_grips_;
     Series pelvis_mps_, foot_mps_, foot_step_mps_;
     std::optional<Vec3> last_pelvis_, last_foot_, last_velocity_;

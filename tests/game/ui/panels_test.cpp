@@ -81,7 +81,7 @@ struct Panels : testing::Test {
 TEST_F(Panels, InspectorPagesDrawWithoutChangingState) {
     play(30);
     const std::uint64_t hash = session.world().hash();
-    for (const char* const page : {"Frame", "Hands", "Tuning", "Entities", "Gizmos"}) {
+    for (const char* const page : {"Frame", "Hands", "Bodies", "Tuning", "Entities", "Gizmos"}) {
         memory.turn_to = page;
         std::size_t triangles = 0;
         for (int i = 0; i < 3; ++i) {  // a page switch takes effect in the next picture

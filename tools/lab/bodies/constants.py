@@ -1,9 +1,13 @@
-"""Writes the fitted constants as the header that the runtime compiles in."""
+"""Writes the fitted constants as the header that the runtime compiles in, and reads it."""
+import re
 import textwrap
+import typing
 
 import numpy as np
 
+from . import estimator
 from .estimator import LOOK_LAGS_S
+from .network import Network
 
 COLUMNS = 96
 
@@ -93,3 +97,35 @@ def rounded(network):
     network.weights = [keep(network.weights[0]).astype(np.float32), (keep(network.weights[1] * network.scale) / network.scale).astype(np.float32)]
     network.bias = [keep(network.bias[0]).astype(np.float32), (keep(network.bias[1] * network.scale) / network.scale).astype(np.float32)]
     return network
+
+
+class Form(typing.NamedTuple):
+    """What a header holds."""
+
+    talked: dict  # of the chest
+    pole: dict
+    fade: dict
+    chest: Network
+    elbow: Network
+
+
+def read(text):
+    """The Form of a header's text."""
+    scalar = lambda name: float(re.search(rf"k_{name} = (\S+);", text).group(1))
+    rest = re.search(r"k_pole_rest = \{(.*)\};", text).group(1).split(",")
+    pole = dict(zip(("rest_x", "rest_y", "rest_z"), map(float, rest))) | {name: scalar(f"pole_{name}") for name in ("fingers", "back", "thumb")}
+    return Form({name: scalar(name) for name in estimator.CHEST_START}, pole, {name: scalar(name) for name in estimator.FADE_START},
+                read_network(text, "chest"), read_network(text, "elbow"))
+
+
+def read_network(text, name):
+    inputs, hidden, outputs = (int(each) for each in re.search(rf"k_{name}_inputs = (\d+);.*k_{name}_outputs = (\d+);.*?k_{name}_inputs, (\d+),", text, re.S)
+                               .group(1, 3, 2))
+    body = text[text.index(f"k_{name}_network = "):]
+    body = body[:body.index(";")]
+    lists = [np.array(re.findall(r"(-?[\d.]+(?:e[-+]?\d+)?)F", part), np.float32) for part in body.split("{\n")[2:8]]
+    result = Network(np.zeros((2, inputs)), hidden, np.ones(outputs), np.random.default_rng(0))
+    result.familiar, result.foreign = (float(each) for each in body[body.rindex("}},") + 3:body.rindex("}")].split(","))
+    result.mean, result.deviation = lists[0], 1.0 / lists[1]
+    result.weights, result.bias = [lists[2].reshape(inputs, hidden), lists[4].reshape(hidden, outputs)], [lists[3], lists[5]]
+    return result

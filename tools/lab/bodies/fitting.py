@@ -1,7 +1,7 @@
 """Fits the constants of systems/body: first the talk's formulas, then the networks that correct it."""
 import numpy as np
 
-from . import choosing, estimator
+from . import choosing, estimator, mixing
 from .estimator import Elbows
 from .network import Network, epochs
 
@@ -89,6 +89,17 @@ def person_weights(person):
     return (weights / weights.mean()).astype(np.float32)
 
 
+def offsets_of(motion, constants, lean):
+    """Displacement of the shoulders' middle and tangent of the roll that would be right in a chest that faces as it truly does: (frames, 4)."""
+    shift = estimator.shoulders_of(motion, motion.yaw, motion.shoulder_m) - motion.shoulder_m
+    lifted = np.mean([estimator.to_facing(motion.yaw, each) / motion.scale[:, None] for each in shift], (0, 1)) * [0.0, 1.0, 1.0]
+    middle, axes = estimator.chest_at(motion, constants, motion.yaw, lean)
+    offset = estimator.times_transposed(axes, 0.5 * (motion.shoulder_m[0] + motion.shoulder_m[1]) - middle) / motion.scale[:, None] - lifted
+    line = estimator.times_transposed(axes, motion.shoulder_m[1] - motion.shoulder_m[0])
+    roll = np.clip(line[:, 1] / np.maximum(np.abs(line[:, 0]), 0.05), -1.0, 1.0)
+    return np.concatenate([offset, roll[:, None]], -1)
+
+
 class Chest:
     """The chest's estimate of all frames: talk's formulas, then the network."""
 
@@ -100,14 +111,8 @@ class Chest:
     def targets(self):
         """Outputs that would be right: (frames, 5). The clavicles' mean displacement is left to the clavicles."""
         motion = self.motion
-        shift = estimator.shoulders_of(motion, motion.yaw, motion.shoulder_m) - motion.shoulder_m
-        lifted = np.mean([estimator.to_facing(motion.yaw, each) / motion.scale[:, None] for each in shift], (0, 1)) * [0.0, 1.0, 1.0]
-        middle, axes = estimator.chest_at(motion, self.constants, motion.yaw, self.lean)
-        offset = estimator.times_transposed(axes, 0.5 * (motion.shoulder_m[0] + motion.shoulder_m[1]) - middle) / motion.scale[:, None] - lifted
-        line = estimator.times_transposed(axes, motion.shoulder_m[1] - motion.shoulder_m[0])
-        roll = np.clip(line[:, 1] / np.maximum(np.abs(line[:, 0]), 0.05), -1.0, 1.0)
         turn = estimator.wrapped(motion.yaw - self.talked)
-        return np.concatenate([turn[:, None], offset, roll[:, None]], -1)
+        return np.concatenate([turn[:, None], offsets_of(motion, self.constants, self.lean)], -1)
 
     def corrected(self, network):
         """(yaw, resting shoulders)."""
@@ -122,6 +127,8 @@ class Chest:
 
 
 def fit_chest(chest, hidden, rounds, noise, decay, seed):
+    """chest: of recorded frames; the network learns from mixed ones too."""
+    chest = Chest(mixing.mixed(chest.motion, seed), chest.constants)
     random = np.random.default_rng(seed)
     network = Network(np.concatenate(chest.inputs), hidden, CHEST_SCALE, random)
     left, right = (network.scaled(each) for each in chest.inputs)

@@ -47,6 +47,11 @@ def acceleration_deg(yaw_deg, recording, counted):
     return mean(bend)
 
 
+def crossed_hands(recording, truth):
+    """Mask of frames with the left hand to the right of the right one, as the true chest faces."""
+    return estimator.to_facing(np.radians(truth.yaw_deg), recording.hand_m[1] - recording.hand_m[0])[:, 0] < 0.0
+
+
 def figures(recording, truth, scored_yaw_deg, shown, scale):
     """{name: (mean error of the yaw or None, its acceleration)} of each facing, and {name: value} of the others. scale: eye heights by row, over SCALE_EYE_M."""
     ahead = -shown.chest[..., 2]
@@ -63,7 +68,9 @@ def figures(recording, truth, scored_yaw_deg, shown, scale):
             forearms |= inside(elbow + share * (hand - elbow))
         wrists |= angle_deg(hand - elbow, -estimator.matrices(xyzw)[..., 2]) > WRIST_DEG
     up = estimator.matrices(recording.head_xyzw)[..., 1]
-    return yaws, {"neck bend, deg": mean(angle_deg(up, shown.chest[..., 1])[truth.valid]), "elbows in the trunk, % of frames": percent(elbows),
+    crossed = truth.valid & crossed_hands(recording, truth)
+    scored_error = np.abs(wrapped_deg(scored_yaw_deg - truth.yaw_deg))
+    return yaws, {"yaw with crossed hands, deg": mean(scored_error[crossed]), "crossed hands, % of frames": percent(crossed), "neck bend, deg": mean(angle_deg(up, shown.chest[..., 1])[truth.valid]), "elbows in the trunk, % of frames": percent(elbows),
                   "forearms in the trunk, % of frames": percent(forearms), f"wrists over {WRIST_DEG:.0f} deg, % of frames": percent(wrists)}
 
 
