@@ -5,7 +5,6 @@
 
 #include <ngtcp2/ngtcp2_crypto.h>
 
-
 #include "game/net/host_port.hpp"
 
 namespace handhold {

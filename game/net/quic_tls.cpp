@@ -12,7 +12,6 @@
 
 #include "game/net/host_port.hpp"
 
-
 namespace handhold {
 namespace {
 
