@@ -44,8 +44,8 @@ std::optional<QuicUrl> parse_quic_url(std::string_view url) {
     return out;
 }
 
-// Tokens of servers that this program has been connected to, by URL: with one a busy server needs
-// no Retry to know this address.
+// Tokens of servers that this program has been connected to, by URL and address: with one a busy
+// server needs no Retry to know this address.
 class KnownServers {
   public:
     std::vector<std::uint8_t> take(const std::string& url) {
@@ -74,8 +74,8 @@ class QuicLink final : public Link {
   public:
     // `servers`: the places that the host's name has, at least one. The first that answers is
     // taken.
-    QuicLink(std::string name, const QuicUrl& url, std::vector<UdpPlace> servers)
-        : name_(std::move(name)),
+    QuicLink(std::string text, const QuicUrl& url, std::vector<UdpPlace> servers)
+        : url_(std::move(text)),
           credentials_(TlsCredentials::of_peer(url.place.host, url.fingerprint)),
           servers_(std::move(servers)) {
         connect_next();
@@ -130,10 +130,11 @@ class QuicLink final : public Link {
         QuicConnectionSettings settings;
         settings.most_message_bytes = k_most_from_server;
         settings.window_bytes = k_window_bytes;
-        settings.token_given = [name = name_](std::span<const std::uint8_t> token) {
+        const UdpPlace& server = servers_[next_++];
+        const std::string name = url_ + " " + server.text();
+        settings.token_given = [name](std::span<const std::uint8_t> token) {
             known_servers().keep(name, token);
         };
-        const UdpPlace& server = servers_[next_++];
         began_ = quic_now();
         why_.clear();
         if (connection_ != nullptr) {
@@ -144,7 +145,7 @@ class QuicLink final : public Link {
                                               UdpSocket::Side::peer);
         if (socket_->is_valid()) {
             connection_ = QuicConnection::connect(*credentials_, socket_->place(), server,
-                                                  known_servers().take(name_), std::move(settings));
+                                                  known_servers().take(name), std::move(settings));
         }
         if (connection_ == nullptr) {
             why_ = "no connection can be made";
@@ -180,7 +181,7 @@ class QuicLink final : public Link {
                 }
                 continue;
             }
-            has_heard_ = true;
+            has_heard_ = has_heard_ || from == server_place();
             const bool was_open = connection_->is_open();
             connection_->read(
                 *socket_, server_place(), bytes,
@@ -201,7 +202,7 @@ class QuicLink final : public Link {
         }
     }
 
-    std::string name_;  // the URL
+    std::string url_;
     std::unique_ptr<TlsCredentials> credentials_;
     std::vector<UdpPlace> servers_;
     std::size_t next_ = 0;  // the place that is next

@@ -16,7 +16,8 @@ namespace handhold {
 namespace {
 
 constexpr int k_kernel_buffer_bytes = 1 << 22;
-constexpr std::size_t k_headers_bytes = 28;  // headers of IP and UDP
+// Headers of IP and UDP.
+std::size_t headers_bytes(const UdpPlace& from) { return from.family() == AF_INET6 ? 48 : 28; }
 // Datagrams in a peer's name may come at so many times the rate that the peer itself may use: so
 // much from the peer's address, and so much again from all others.
 constexpr double k_forged_share = 10.0;
@@ -252,7 +253,7 @@ class QuicListener final : public DatagramListener {
                 handler.received(link, message);
             }
         };
-        const std::size_t size = bytes.size() + k_headers_bytes;
+        const std::size_t size = bytes.size() + headers_bytes(from);
         if (peer.connection->read(socket_, from, bytes, take)) {
             charge(peer, 0, size);
         } else {

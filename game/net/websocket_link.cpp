@@ -1,5 +1,6 @@
 // A peer's WebSocket connection to a server, by libwebsockets.
 #include <exception>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -42,31 +43,25 @@ std::optional<WebSocketUrl> parse_url(std::string_view url) {
 class WebSocketLink final : public Link {
   public:
     explicit WebSocketLink(WebSocketUrl url)
-        : url_(std::move(url)), protocols_(protocols()), context_(info(url_, this, protocols_)) {
-        if (context_.get() == nullptr) {
-            is_closed_ = true;
-            why_ = "no connection can be made";
-            return;
-        }
-        lws_client_connect_info connect{};
-        connect.context = context_.get();
-        connect.address = url_.place.host.c_str();
-        connect.host = connect.address;
-        connect.origin = connect.address;
-        connect.port = url_.place.port;
-        connect.path = url_.path.c_str();
-        connect.protocol = k_websocket_protocol;
-        connect.ssl_connection = url_.is_secure ? LCCSCF_USE_SSL : 0;
-        connect.pwsi = &wsi_;
-        if (lws_client_connect_via_info(&connect) == nullptr) {
-            end("no connection");
-        }
+        : url_(std::move(url)),
+          host_(is_v6() ? "[" + url_.place.host + "]" : url_.place.host),
+          protocols_(protocols()) {
+        // A name whose addresses of IPv6 lead nowhere may have one of IPv4 that works: that comes
+        // first.
+        families_ = is_v6() ? 0 : LWS_SERVER_OPTION_DISABLE_IPV6;
+        connect();
     }
 
     void poll(double wait_s, LinkHandler& handler) override {
         handler_ = &handler;
         if (!is_closed_) {
-            context_.service(wait_s);
+            context_->service(wait_s);
+        }
+        if (is_closed_ && !has_opened_ && families_ != 0 && !is_address(url_.place.host)) {
+            context_ = nullptr;
+            families_ = 0;
+            is_closed_ = false;
+            connect();
         }
         handler_ = nullptr;
         if (is_closed_ && !is_told_) {
@@ -93,20 +88,41 @@ class WebSocketLink final : public Link {
     }
 
   private:
+    bool is_v6() const { return url_.place.host.find(':') != std::string::npos; }
+    void connect() {
+        context_ = std::make_unique<WebSocketContext>(info());
+        if (context_->get() == nullptr) {
+            end("no connection can be made");
+            return;
+        }
+        lws_client_connect_info wanted{};
+        wanted.context = context_->get();
+        wanted.address = url_.place.host.c_str();
+        wanted.host = host_.c_str();
+        wanted.origin = host_.c_str();
+        wanted.port = url_.place.port;
+        wanted.path = url_.path.c_str();
+        wanted.protocol = k_websocket_protocol;
+        wanted.ssl_connection = url_.is_secure ? LCCSCF_USE_SSL : 0;
+        wanted.pwsi = &wsi_;
+        if (lws_client_connect_via_info(&wanted) == nullptr) {
+            end("no connection");
+        }
+    }
     static std::array<lws_protocols, 2> protocols() {
         std::array<lws_protocols, 2> out{};
         out[0].name = k_websocket_protocol;
         out[0].callback = &WebSocketLink::on_event;
         return out;
     }
-    static lws_context_creation_info info(const WebSocketUrl& url, WebSocketLink* self,
-                                          const std::array<lws_protocols, 2>& protocols) {
+    lws_context_creation_info info() {
         lws_context_creation_info info{};
         info.port = CONTEXT_PORT_NO_LISTEN;
-        info.protocols = protocols.data();
-        info.user = self;
-        if (url.is_secure) {
-            info.options = LWS_SERVER_OPTION_DO_SSL_GLOBAL_INIT;
+        info.protocols = protocols_.data();
+        info.user = this;
+        info.options = families_;
+        if (url_.is_secure) {
+            info.options |= LWS_SERVER_OPTION_DO_SSL_GLOBAL_INIT;
         }
         info.fd_limit_per_thread = 8;
         info.timeout_secs = 10;
@@ -126,7 +142,7 @@ class WebSocketLink final : public Link {
                                             : "no connection");
                     return 0;
                 case LWS_CALLBACK_CLIENT_ESTABLISHED:
-                    self->is_open_ = true;
+                    self->is_open_ = self->has_opened_ = true;
                     self->ask_to_write();
                     if (self->handler_ != nullptr) {
                         self->handler_->opened();
@@ -194,6 +210,8 @@ class WebSocketLink final : public Link {
     }
 
     WebSocketUrl url_;
+    std::string host_;            // name or address, as in URLs
+    std::uint64_t families_ = 0;  // options of libwebsockets
     std::array<lws_protocols, 2> protocols_;
     LinkHandler* handler_ = nullptr;
     lws* wsi_ = nullptr;
@@ -201,11 +219,13 @@ class WebSocketLink final : public Link {
     std::vector<std::byte> incoming_;
     std::vector<unsigned char> outgoing_;
     bool is_open_ = false;
+    bool has_opened_ = false;
     bool closes_ = false;
     bool is_closed_ = false;
     bool is_told_ = false;
     std::string why_;
-    WebSocketContext context_;  // the last one: it calls on_event while it ends
+    // The last one: it calls on_event while it ends.
+    std::unique_ptr<WebSocketContext> context_;
 };
 
 }  // namespace

@@ -139,13 +139,25 @@ std::span<const std::byte> bytes_of(const void* bytes, std::size_t size) {
     return {static_cast<const std::byte*>(bytes), size};
 }
 
+// The sample of controllers that has these wrists. `wrists`: as of page_poll.
+hh::Sample of_controllers(hh::Sample sample, std::uint32_t wrists) {
+    using ::operator*;
+    const PageMatch& all = page();
+    const hh::Player player = all.level->players[all.peer->slot()];
+    for (const hh::Side side : {HH_LEFT, HH_RIGHT}) {
+        if ((wrists >> static_cast<unsigned>(side) & 1U) != 0) {
+            sample.hands[side] =
+                sample.hands[side] *
+                hh::inverse(*all.level->scene.host.hand_in_controller(player, side));
+        }
+    }
+    return sample;
+}
+
 // Moves the samples to the world's clock, and wrists to controllers.
 void give_samples(const hh_match_input& given, std::uint32_t wrists, double end_s,
                   PeerInput& input) {
-    using ::operator*;
     PageMatch& all = page();
-    const hh::World& world = all.level->scene.host;
-    const hh::Player player = all.level->players[all.peer->slot()];
     const double now_s = end_s + input.later_ticks * k_match_tick_s;
     if (all.given_until_s > now_s + k_match_tick_s) {  // a state has set the clock back
         all.given_until_s = 0.0;
@@ -156,13 +168,7 @@ void give_samples(const hh_match_input& given, std::uint32_t wrists, double end_
             continue;
         }
         all.given_until_s = sample.time_s;
-        for (const hh::Side side : {HH_LEFT, HH_RIGHT}) {
-            if ((wrists >> static_cast<unsigned>(side) & 1U) != 0) {
-                sample.hands[side] =
-                    sample.hands[side] * hh::inverse(*world.hand_in_controller(player, side));
-            }
-        }
-        input.samples.push_back(sample);
+        input.samples.push_back(of_controllers(sample, wrists));
     }
 }
 
@@ -260,6 +266,14 @@ std::int32_t page_poll(double now_s, const hh_match_input* input, std::uint32_t 
         all.defect = error.what();
         return -1;
     }
+}
+
+hh_result page_drawn_player(std::uint32_t slot, const hh_tracking_sample* newest,
+                            std::uint32_t wrists, hh_pose* origin, hh_pose* head, hh_pose* left,
+                            hh_pose* right) {
+    const hh::Sample own = newest != nullptr ? of_controllers(*newest, wrists) : hh::sample();
+    return hh_match_drawn_player(page_match(), slot, newest != nullptr ? &own : nullptr, origin,
+                                 head, left, right);
 }
 
 std::size_t page_next_message(const void** message) {

@@ -59,6 +59,10 @@ void page_closed(const char* why);
 // buttons are ignored; snap turns wait for the next tick. Returns the number of ticks, or -1 for a
 // defect (page_why).
 std::int32_t page_poll(double now_s, const hh_match_input* input, std::uint32_t wrists);
+// hh_match_drawn_player of the page's match. `wrists`: as of page_poll, for `newest`.
+hh_result page_drawn_player(std::uint32_t slot, const hh_tracking_sample* newest,
+                            std::uint32_t wrists, hh_pose* origin, hh_pose* head, hh_pose* left,
+                            hh_pose* right);
 // The next message to the server, 0 bytes: none is left.
 std::size_t page_next_message(const void** message);
 void page_leave(void);

@@ -263,7 +263,8 @@ hh_result hh_match_advance(hh_match* match, const hh_match_input* input, uint8_t
         } else {
             advance_client(*match, read, *advanced);
         }
-        if (*advanced != 0 && read.is_hidden == 0) {
+        // Also while the world waits: everything then stands still at its tick.
+        if (read.is_hidden == 0) {
             note_drawn(*match);
         }
     });

@@ -58,6 +58,8 @@ hh_result hh_match_drawn_player(const hh_match* match, uint32_t slot,
         require(origin != nullptr && head != nullptr && left != nullptr && right != nullptr,
                 HH_ERROR_NULL, "an output is null");
         const std::size_t wanted = slot_of(of_host, slot);
+        require(newest == nullptr || (of_host.client != nullptr && slot == of_host.def.slot),
+                HH_ERROR_VALUE, "newest samples are for the own slot");
         require(!of_host.drawn.is_empty(), HH_ERROR_STATE, "no tick was shown yet");
         const hh_world& host = of_host.host;
         const Entity player = find_by_id(host.world, drawn_world(of_host).players[wanted]);

@@ -36,6 +36,7 @@ void DrawnPoses::note(const MatchWorld& match, const PointsOfAll& offsets) {
     const World& world = match.world;
     ++notes_;
     Tick& now = ticks_[(notes_ - 1) % 2];
+    Tick& last_shown = ticks_[notes_ % 2];
     now.tick = world.clock.frame;
     now.owners.assign(world.body_pose.owners().begin(), world.body_pose.owners().end());
     now.bodies_ws.clear();
@@ -46,6 +47,8 @@ void DrawnPoses::note(const MatchWorld& match, const PointsOfAll& offsets) {
     for (std::size_t slot = 0; slot < match.player_count; ++slot) {
         const Entity player = find_by_id(world, match.players[slot]);
         note_player(world, player, offsets[slot], now.players[slot]);
+        const bool has_jumped =
+            jumps(last_shown.players[slot].origin_ws, now.players[slot].origin_ws);
         for (std::size_t i = 0; i < world.grab.size(); ++i) {
             const Grab& grab = world.grab.elements()[i];
             const HandOwner& owner = world.hand_owner.at(world.grab.owners()[i]);
@@ -56,6 +59,9 @@ void DrawnPoses::note(const MatchWorld& match, const PointsOfAll& offsets) {
             if (body < now.bodies_ws.size() && std::ranges::find(moved_, body) == moved_.end()) {
                 moved_.push_back(body);
                 now.bodies_ws[body].position += offsets[slot].hands[index_of(owner.side)];
+                if (has_jumped && is_there(last_shown, body, grab.body)) {
+                    last_shown.bodies_ws[body] = now.bodies_ws[body];
+                }
             }
         }
     }
@@ -85,13 +91,15 @@ DrawnPlayer DrawnPoses::player(std::size_t slot, double before_ticks) const {
 Pose DrawnPoses::body(const World& world, Entity body, const Pose& now_ws,
                       double before_ticks) const {
     const std::size_t index = world.body_pose.find_index(body);
-    const auto is_there = [&](const Tick& tick) {
-        return index < tick.owners.size() && tick.owners[index] == body;
-    };
-    return is_there(before()) && is_there(last())
-               ? interpolate(before().bodies_ws[index], last().bodies_ws[index],
-                             share_at(before_ticks))
-               : now_ws;
+    if (!is_there(last(), index, body)) {
+        return now_ws;
+    }
+    const Pose& to_ws = last().bodies_ws[index];
+    if (!is_there(before(), index, body) ||
+        (to_ws.position - before().bodies_ws[index].position).norm() > k_most_m) {
+        return to_ws;
+    }
+    return interpolate(before().bodies_ws[index], to_ws, share_at(before_ticks));
 }
 
 }  // namespace handhold

@@ -26,12 +26,13 @@ struct DrawnPlayer {
 // ShownOffsets. Nothing of it is part of the world.
 class DrawnPoses {
   public:
-    // A play space that moves farther or turns more between two pictures jumps, as by a teleport or
-    // a snap turn: it is drawn after the jump.
+    // Play spaces and bodies that move farther, and play spaces that turn more, between two shown
+    // ticks jump, as by a teleport or a snap turn: they are drawn after the jump. So is what a
+    // player holds whose play space jumps.
     static constexpr double k_most_m = 0.5;
     static constexpr double k_most_rad = 0.2;
 
-    // Call after each tick that is shown.
+    // Call after each tick that is shown, and again for the same tick if there was no other.
     void note(const MatchWorld& match, const PointsOfAll& offsets);
     // The world is replaced.
     void forget() { notes_ = 0; }
@@ -51,6 +52,9 @@ class DrawnPoses {
         std::vector<Entity> owners;
         std::vector<Pose> bodies_ws;
     };
+    static bool is_there(const Tick& tick, std::size_t index, Entity body) {
+        return index < tick.owners.size() && tick.owners[index] == body;
+    }
     // Share of the way from the tick before to the last one.
     double share_at(double before_ticks) const;
     const Tick& last() const { return ticks_[(notes_ - 1) % 2]; }

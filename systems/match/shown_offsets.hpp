@@ -20,8 +20,8 @@ void note_points(const MatchWorld& match, PointsOfAll& out);
 
 // What a client adds to drawn positions, so that a correction of wrong guesses moves them within
 // k_shown_correction_s instead of at once. An offset begins as the position before the correction
-// minus that after it. It decays critically damped, so that drawn velocities do not jump either,
-// and no faster than k_most_mps.
+// minus that after it. It decays critically damped, so that drawn velocities change over a few
+// ticks, and no faster than k_most_mps.
 // Offsets are only drawn; they are never part of the world.
 //
 // All hands that hold one loose body have the offset of the first of them, in the order of
@@ -31,7 +31,7 @@ void note_points(const MatchWorld& match, PointsOfAll& out);
 // is for the own view too, with all that it shows of the player.
 class ShownOffsets {
   public:
-    // Time in which nineteen twentieths of a correction are shown, s.
+    // After this and at most one tick more, nineteen twentieths of a correction are shown, s.
     static constexpr double k_shown_correction_s = 0.08;
     // Largest speed of an offset; larger corrections take longer.
     static constexpr double k_most_mps = 1.35;

@@ -186,7 +186,7 @@ function playRecording(dt_s) {
     }
 }
 // A match goes on between pictures, however long those take; only a headset's devices are read in its frames.
-let matchSample = null; // the newest of the devices
+let matchDevices = null; // the newest: of the headset, or of mouse and keyboard
 let matchRead_ms;
 let matchTimer;
 let matchDefect = null; // what the match has thrown: it is not stepped any more
@@ -196,7 +196,7 @@ function followMatch() {
     matchRead_ms = now_ms;
     if (!renderer.xr.isPresenting) {
         const devices = desktop.read(dt_s);
-        matchSample = devices.sample;
+        matchDevices = devices;
         advanceMatch(devices);
     }
 }
@@ -242,12 +242,12 @@ function advance(dt_s, { usesWrists, sample, commands }) {
 /** Moves what is drawn to where the world has it. */
 function show(dt_s, frame_ms) {
     const pose = world.playerPose(player);
-    const drawn = match?.drawnPlayer(match.slot, matchSample) ?? pose; // a match's ticks are not the pictures
-    place(rig, drawn.origin);
+    const drawn = match?.drawnPlayer(match.slot, matchDevices) ?? null; // a match's ticks are not the pictures
+    place(rig, (drawn ?? pose).origin);
     const bodies = level.movers.map((one) => one.body);
     (match?.drawnBodies(bodies) ?? world.bodyPoses(bodies)).forEach((at, i) => place(level.movers[i].object, at));
     const showsGizmos = element('gizmos').checked;
-    avatar.update(world, player, pose, showsGizmos, recorded ? k_recorded_step_s : dt_s, { drawn: match ? drawn : null });
+    avatar.update(world, player, pose, showsGizmos, recorded ? k_recorded_step_s : dt_s, { drawn });
     climber?.update(showsGizmos, dt_s);
     for (const other of others) {
         other.avatar.update(world, other.id, world.playerPose(other.id), showsGizmos, dt_s, { drawn: match.drawnPlayer(other.slot) });
@@ -273,12 +273,12 @@ function onFrame(now_ms, frame) {
         playRecording(wall_s);
     } else if (match && !inHeadset) {
         followMatch(); // up to this picture
-        if (matchSample) {
-            place(camera, matchSample.head);
+        if (matchDevices) {
+            place(camera, matchDevices.sample.head);
         }
     } else {
         const devices = inHeadset ? headset.read(frame, space, element('smooth').checked) : desktop.read(dt_s);
-        matchSample = devices.sample;
+        matchDevices = devices;
         advance(dt_s, devices);
         if (!inHeadset) {
             place(camera, devices.sample.head);

@@ -18,6 +18,8 @@ structs.PageVisual = [['body', 'hh_body'], ['vertices', 'pointer'], ['vertex_cou
     ['color', 'f32', 3], ['emissive', 'f32'], ['opacity', 'f32'], ['gloss', 'f32'], ['center', 'hh_vec3'], ['is_moving', 'u32']];
 structs.PageLamp = [['position', 'hh_vec3'], ['color', 'f32', 3], ['reach_m', 'f32']];
 
+const wristBits = (usesWrists = []) => usesWrists.reduce((bits, uses, side) => bits | Number(uses) << side, 0);
+
 function openSocket(url, WebSocketType) {
     let socket;
     try {
@@ -127,8 +129,7 @@ export class Match {
      * `commands`: of the devices, now; `usesWrists`: by side, as devices.js gives them. Returns the number of ticks. */
     poll({ sample, samples = [{ ...sample, time_s: 0 }], commands = {}, usesWrists = [false, false] }) {
         const { exports } = this.handhold;
-        const wrists = usesWrists.reduce((bits, uses, side) => bits | Number(uses) << side, 0);
-        const ticks = this.handhold.scratch((m) => exports.page_poll(now_s(), m.takeOne('hh_match_input', { samples, commands }), wrists));
+        const ticks = this.handhold.scratch((m) => exports.page_poll(now_s(), m.takeOne('hh_match_input', { samples, commands }), wristBits(usesWrists)));
         if (ticks < 0) {
             throw new Error(this.why);
         }
@@ -200,14 +201,13 @@ export class Match {
         });
     }
     /** Where to draw a slot's player between two ticks, at the time of the last poll: `origin`, `head` and `hands`, as of hh_match_drawn_player.
-     * `newest`: the own devices now. Null before the first tick that is shown. */
+     * `newest`: `sample` and `usesWrists` of the own devices now, as for poll. Null before the first tick that is shown. */
     drawnPlayer(slot, newest = null) {
         const { exports } = this.handhold;
-        const match = exports.page_match();
-        return match === 0 ? null : this.handhold.scratch((m) => {
-            const sample = newest === null ? 0 : m.takeOne('hh_tracking_sample', newest);
+        return exports.page_match() === 0 ? null : this.handhold.scratch((m) => {
+            const sample = newest === null ? 0 : m.takeOne('hh_tracking_sample', newest.sample);
             const out = Array.from({ length: 4 }, () => m.takeOne('hh_pose'));
-            if (exports.hh_match_drawn_player(match, slot, sample, ...out) !== 0) {
+            if (exports.page_drawn_player(slot, sample, wristBits(newest?.usesWrists), ...out) !== 0) {
                 return null;
             }
             const [origin, head, left, right] = out.map((at) => m.read('hh_pose', at));

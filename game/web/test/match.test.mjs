@@ -51,8 +51,17 @@ test('a peer in WebAssembly and two native bots have the hashes of the server, i
     match.players.forEach((id, slot) => {
         assert.ok(apart_m(match.drawnPlayer(slot).head.position, match.world.playerPose(id).head.position) < 0.5, `${slot}`);
     });
-    const heads = [0, 0.5].map((y) => match.drawnPlayer(0, { head: { position: { x: 0, y: 1 + y, z: 0 }, rotation: { x: 0, y: 0, z: 0, w: 1 } } }).head.position);
+    const rotation = { x: 0, y: 0, z: 0, w: 1 };
+    const devicesAt = (y, wrists) => ({
+        sample: { head: { position: { x: 0, y, z: 0 }, rotation }, hands: [-0.3, 0.3].map((x) => ({ position: { x, y: 1, z: -0.3 }, rotation })) },
+        usesWrists: [wrists, wrists],
+    });
+    const heads = [1, 1.5].map((y) => match.drawnPlayer(0, devicesAt(y, false)).head.position);
     assert.ok(Math.abs(apart_m(...heads) - 0.5) < 1e-9);
+    // The wrist of a controller is beside it.
+    const hands = [false, true].map((wrists) => match.drawnPlayer(0, devicesAt(1, wrists)).hands[0].position);
+    const isEmpty = match.world.playerPose(match.player).hands[0].grip === 0;
+    assert.ok(!isEmpty || apart_m(...hands) > 0.01, `${apart_m(...hands)}`);
     match.leave();
     const left = await server.waitFor('left');
     assert.equal(await server.end(), 0);

@@ -216,15 +216,18 @@ HH_API hh_result hh_match_shown_offsets(const hh_match* match, uint32_t slot, hh
  * at the time up to which hh_match_ticks_due has been called, less one tick, which lies between the
  * last two shown ticks. Call after the ticks of a picture. With hh_match_shown_offsets already.
  * World poses: `origin` is the space of the samples, for the camera rig; `head`; and wrists to
- * draw. A play space that is moved or turned at once, by a teleport or a snap turn, is not drawn in
- * between. `newest`, for the own slot: the devices at the time of the picture, of any time_s. Head
+ * draw. A play space that moves by more than 0.5 m or turns by more than 0.2 rad at once, as by a
+ * teleport or a snap turn, is not drawn in between. While the world waits, everything stands still.
+ * `newest`, for the own slot: the devices at the time of the picture, of any time_s. Head
  * and empty hands are then drawn where they are, and not late. Null: between ticks, as everything
  * else. Fingers go with their wrist; arms, spine and legs with the head. Never changes the world.
+ * HH_ERROR_VALUE if `newest` is given for another slot, or to a spectator.
  * Clients and spectators. HH_ERROR_STATE before the first shown tick, and after hh_match_join. */
 HH_API hh_result hh_match_drawn_player(const hh_match* match, uint32_t slot,
                                        const hh_tracking_sample* newest, hh_pose* origin,
                                        hh_pose* head, hh_pose* left, hh_pose* right);
-/* The same for bodies: poses as of hh_world_body_poses. A body that is held goes with its hands. */
+/* The same for bodies: poses as of hh_world_body_poses. A body that is held goes with its hands;
+ * one that moves by more than 0.5 m at once is not drawn in between. */
 HH_API hh_result hh_match_drawn_bodies(const hh_match* match, const hh_body* bodies, size_t count,
                                        hh_pose* poses);
 
