@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
 #include "components/arm.hpp"
+#include "components/player.hpp"
 #include "components/spine.hpp"
 #include "engine/math/math.hpp"
 
@@ -50,5 +52,15 @@ struct GrippableBody {
 };
 // Distance from the head, in eye heights, beyond which hands find no part.
 inline constexpr double k_grippable_eyes = 2.0;
+
+// Scratch memory of pose_grippable_bodies for one player.
+struct GrippablePlayer {
+    // Indices of the hands in the column HandOwner, by side; its size where a hand is missing.
+    std::array<std::size_t, k_hand_count> hands{};
+    bool closes = false;  // one of the hands may begin to grip in this frame
+    Vec3 head_ws = Vec3::Zero();
+    double body_reach_m = 0.0;  // distance from the head within which the parts are
+    bool is_tracked = false;    // the head, now or earlier
+};
 
 }  // namespace handhold

@@ -95,9 +95,10 @@ struct FrameGraph {
     // If a joint connects a body to the world, `phase` and graph.bodies have one element more than
     // `entities`: the last one stands for the world.
     std::vector<PhaseBody> phase;
-    JointGroups joint_groups;                // written by group_joints
-    Column<GrippableBody> grippable_bodies;  // written by pose_grippable_bodies; by player
-    std::vector<PushBack> push_backs;        // one per player; written by finish_positions
+    JointGroups joint_groups;                        // written by group_joints
+    Column<GrippableBody> grippable_bodies;          // written by pose_grippable_bodies; by player
+    std::vector<GrippablePlayer> grippable_players;  // scratch of pose_grippable_bodies
+    std::vector<PushBack> push_backs;                // one per player; written by finish_positions
 
     std::vector<ContactPoint> contacts;  // written by find_contacts, solve_phases
     std::vector<IgnoredPair> ignored;    // written by find_contacts

@@ -6,8 +6,9 @@
 
 namespace handhold {
 
-// Four floats processed together. Only for rejection tests with a rounding margin; results are
-// computed in doubles (double4.hpp).
+// Four floats processed together. For rejection tests with a rounding margin, and for body networks
+// (systems/body/shared), which compute state with it: no operation may be fused, reordered or
+// flushed to zero. Other results are computed in doubles (double4.hpp).
 using Float4 = float __attribute__((vector_size(16)));
 
 // Result of comparisons: each lane is 0 or -1.

@@ -14,7 +14,7 @@ struct PoseArmsIo {
     const Column<HandOwner>& owner;        // in
     const Column<PalmPose>& palm;          // in
     const Column<ArmEstimate>& estimate;   // in
-    Column<ArmPose>& arms;                 // out: for players who have hands
+    Column<ArmPose>& arms;                 // out: has every player
 };
 
 // Poses the arms' joints in the world by two-bone IK from the estimated shoulder to the palm. The

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <vector>
 
 #include "components/scaled_tuning.hpp"
+#include "engine/core/check.hpp"
 #include "engine/core/parallel.hpp"
 #include "systems/body/shared/memoryless_body.hpp"
 #include "systems/body/shared/rest_hand.hpp"
@@ -17,26 +17,6 @@ const Pose& head_ps(const PoseGrippableBodiesIo& io, Entity player) {
     return is_null(io.asking) ? head.start_ps : head.pose_ps;
 }
 
-// The indices of a player's hands in io.owner, by side; its size where a hand is missing.
-using HandIndices = std::array<std::size_t, k_hand_count>;
-
-// Scratch memory per thread, not per call: a frame allocates nothing once warm.
-struct Scratch {
-    std::vector<HandIndices> hands;  // indexed like io.origin
-    std::vector<bool> closes;        // indexed like io.origin: one of the player's hands may close
-    struct Head {
-        Vec3 position_ws;
-        double body_reach_m = 0.0;  // distance within which the player's parts are
-        bool is_tracked = false;    // now or earlier
-    };
-    std::vector<Head> heads;  // indexed like io.origin
-};
-
-Scratch& scratch() {
-    thread_local Scratch memory;
-    return memory;
-}
-
 void add_body(const PoseGrippableBodiesIo& io, Entity player) {
     if (!io.bodies.contains(player)) {
         io.bodies.add(player);
@@ -44,9 +24,10 @@ void add_body(const PoseGrippableBodiesIo& io, Entity player) {
 }
 
 GrippableBody grippable_body(const PoseGrippableBodiesIo& io, Entity player,
-                             const HandIndices& hands, TuningOfPlayers& tunings) {
+                             TuningOfPlayers& tunings) {
     TrackedBody body{
         head_ps(io, player), {}, io.measures.at(player), io.head.at(player).shift_m.y()};
+    const auto& hands = io.players[io.origin.find_index(player)].hands;
     std::array<ArmGoal, k_hand_count> goals{};
     for (std::size_t side = 0; side < k_hand_count; ++side) {
         if (hands[side] == io.owner.size()) {
@@ -66,33 +47,33 @@ bool may_close(const PoseGrippableBodiesIo& io, Entity hand) {
     return hand == io.asking || io.hand.at(hand).edge == GrabEdge::onset || io.pull.contains(hand);
 }
 
-// Writes the scratch. A player's hands close together, because one hand may
-// join the other on a body that needs both.
-void see_players(const PoseGrippableBodiesIo& io, Scratch& players) {
+// Writes io.players. A player's hands close together, because one hand may join the other on a body
+// that needs both.
+void see_players(const PoseGrippableBodiesIo& io) {
     const std::size_t none = io.owner.size();
-    players.hands.assign(io.origin.size(), {none, none});
-    players.closes.assign(io.origin.size(), false);
-    players.heads.clear();
+    io.players.clear();
     for (const Entity player : io.origin.owners()) {
-        players.heads.push_back(
-            {transform_point(io.origin.at(player).pose_ws, head_ps(io, player).position),
-             k_grippable_eyes * io.measures.at(player).eye_height_m,
-             io.head.at(player).state != TrackingState::never});
+        io.players.push_back(
+            {.hands = {none, none},
+             .closes = false,
+             .head_ws = transform_point(io.origin.at(player).pose_ws, head_ps(io, player).position),
+             .body_reach_m = k_grippable_eyes * io.measures.at(player).eye_height_m,
+             .is_tracked = io.head.at(player).state != TrackingState::never});
     }
     for (std::size_t index = 0; index < io.owner.size(); ++index) {
         const HandOwner& owner = io.owner.elements()[index];
-        const std::size_t player = io.origin.find_index(owner.player);
-        players.hands[player][index_of(owner.side)] = index;
-        if (may_close(io, io.owner.owners()[index])) {
-            players.closes[player] = true;
-        }
+        const std::size_t player_index = io.origin.find_index(owner.player);
+        HH_CHECK(player_index < io.players.size(), "the hand's player has no origin", index);
+        GrippablePlayer& player = io.players[player_index];
+        player.hands[index_of(owner.side)] = index;
+        player.closes = player.closes || may_close(io, io.owner.owners()[index]);
     }
 }
 
 // Adds the bodies of other players of which the hand may find a part in this frame. Errs on the
 // side of more. Nobody knows where a player is whose head was never tracked.
 void add_bodies_in_reach(const PoseGrippableBodiesIo& io, std::size_t index,
-                         const HandTuning& tuning, const Scratch& players) {
+                         const HandTuning& tuning) {
     const HandTracking& hand = io.hand.at(io.owner.owners()[index]);
     const Entity own = io.owner.elements()[index].player;
     const Pose& origin_ws = io.origin.at(own).pose_ws;
@@ -102,11 +83,11 @@ void add_bodies_in_reach(const PoseGrippableBodiesIo& io, std::size_t index,
     const double hand_reach_m =
         tuning.palm_center_m.norm() + tuning.ray_back_m + tuning.ray_length_m + tuning.reach_m;
     for (std::size_t other = 0; other < io.origin.size(); ++other) {
-        const Scratch::Head& head = players.heads[other];
-        const double reach_m = hand_reach_m + head.body_reach_m;
+        const GrippablePlayer& seen = io.players[other];
+        const double reach_m = hand_reach_m + seen.body_reach_m;
         const bool is_near =
-            head.is_tracked && std::ranges::any_of(points_ws, [&](const Vec3& point) {
-                return (point - head.position_ws).squaredNorm() <= reach_m * reach_m;
+            seen.is_tracked && std::ranges::any_of(points_ws, [&](const Vec3& point) {
+                return (point - seen.head_ws).squaredNorm() <= reach_m * reach_m;
             });
         const Entity player = io.origin.owners()[other];
         if (is_near && player != own) {
@@ -123,8 +104,7 @@ void pose_grippable_bodies(const PoseGrippableBodiesIo& io, const Tuning& tuning
         return;
     }
     TuningOfPlayers tunings(tuning);
-    Scratch& players = scratch();
-    see_players(io, players);
+    see_players(io);
     for (const Entity hand : io.body_hold.owners()) {
         const Grab& grab = io.grab.at(hand);
         if (grab.kind == GripKind::player && io.origin.contains(grab.body)) {
@@ -133,8 +113,8 @@ void pose_grippable_bodies(const PoseGrippableBodiesIo& io, const Tuning& tuning
     }
     for (std::size_t index = 0; index < io.owner.size(); ++index) {
         const Entity own = io.owner.elements()[index].player;
-        if (players.closes[io.origin.find_index(own)]) {
-            add_bodies_in_reach(io, index, tunings.of(io.origin.at(own)).hand, players);
+        if (io.players[io.origin.find_index(own)].closes) {
+            add_bodies_in_reach(io, index, tunings.of(io.origin.at(own)).hand);
         }
     }
     constexpr std::size_t k_players_per_slice = 4;
@@ -142,8 +122,7 @@ void pose_grippable_bodies(const PoseGrippableBodiesIo& io, const Tuning& tuning
         TuningOfPlayers own_tunings(tuning);
         for (std::size_t index = first; index < last; ++index) {
             const Entity player = io.bodies.owners()[index];
-            io.bodies.elements()[index] = grippable_body(
-                io, player, players.hands[io.origin.find_index(player)], own_tunings);
+            io.bodies.elements()[index] = grippable_body(io, player, own_tunings);
         }
     };
     parallel_slices(io.bodies.size(), k_players_per_slice, pose);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "components/body_part.hpp"
 #include "components/grab.hpp"
 #include "components/player.hpp"
@@ -21,7 +23,8 @@ struct PoseGrippableBodiesIo {
     // in: a hand that asks between two frames what it would grip if it closed, with all poses as
     // they are then; null: a frame's stage
     Entity asking;
-    Column<GrippableBody>& bodies;  // out: cleared first
+    Column<GrippableBody>& bodies;          // out: cleared first
+    std::vector<GrippablePlayer>& players;  // scratch: indexed like `origin`
 };
 
 // Poses the bodies whose arms, trunk and legs hands may grip in this frame: of players whom another

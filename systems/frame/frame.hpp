@@ -13,6 +13,7 @@
 #include "engine/collision/collision_world.hpp"
 #include "engine/geometry/grip_mesh_library.hpp"
 #include "engine/geometry/shape_library.hpp"
+#include "systems/grab/shared/grab_search.hpp"
 #include "systems/hand/shared/part_meshes.hpp"
 #include "systems/hand/shared/resized_meshes.hpp"
 #include "systems/rigs/body_clips.hpp"
@@ -52,6 +53,7 @@ struct FrameCaches {
     BodyClips body_clips;                 // empty: no additive clips
     Column<BodySurface> body_surfaces;    // bodies with a grip mesh of their own
     HandScratch hands;
+    std::vector<ClosingHand> closing_hands;  // scratch of update_grabs
     PartMeshes part_meshes;        // meshes of held players' parts; built when a hand grips one
     ResizedMeshes resized_meshes;  // meshes for hands of players whose scale is not 1
 };

@@ -74,7 +74,8 @@ void pose_grippable_bodies(const FrameContext& f, Entity asking) {
                                      .body_hold = w.body_hold,
                                      .pull = w.hand_pull,
                                      .asking = asking,
-                                     .bodies = f.graph().grippable_bodies},
+                                     .bodies = f.graph().grippable_bodies,
+                                     .players = f.graph().grippable_players},
                                     f.tuning);
 }
 
@@ -102,7 +103,8 @@ GrabSearch grab_search(const FrameContext& f) {
             .authored_hold = w.authored_hold,
             .head_ignores = w.head_ignores,
             .body_hold = w.body_hold,
-            .order = w.grab_order};
+            .order = w.grab_order,
+            .closing = f.caches.closing_hands};
 }
 
 void update_grabs(const FrameContext& f) {

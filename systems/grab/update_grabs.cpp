@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <span>
-#include <vector>
 
 #include "components/hand_indices.hpp"
 #include "components/play_space.hpp"
@@ -36,13 +34,6 @@ void ignore_for_head(HeadIgnores& ignores, Entity body, StageStats& stats) {
     }
     *place = body;
 }
-
-// A hand that closes, or a closed one that may grip the body it pulls.
-struct Closing {
-    Pose hand_ps;
-    double since_s = 0.0;
-    Entity only = k_no_entity;  // the pulled body; null: any body may be gripped
-};
 
 // True if a pulled body can be gripped: it touches the palm, or has passed it by a frame's travel.
 // If it were gripped at HandTuning::reach_m already, it would stay that far away.
@@ -145,62 +136,52 @@ bool has_joined(const UpdateGrabsIo& io, const Grab& grab, const HandTracking& h
            grab.phase == GrabPhase::fresh && grab.since_s == hand.edge_t_s;
 }
 
-// A hand that may begin to grip in this frame, and the surface that it finds.
-struct ClosingHand {
-    std::size_t index = 0;  // index into io.grab
-    Closing closing;
-    GrabSearchResult surface;
-};
-
-std::optional<Closing> closing_of(const UpdateGrabsIo& io, std::size_t index) {
+// The hand if it may begin to grip in this frame.
+std::optional<ClosingHand> closing_of(const UpdateGrabsIo& io, std::size_t index) {
     const Entity entity = io.grab.owners()[index];
     const HandTracking& hand = io.hand.at(entity);
     if (hand.edge == GrabEdge::onset) {
-        return Closing{hand.edge_ps, hand.edge_t_s, k_no_entity};
+        return ClosingHand{index, hand.edge_ps, hand.edge_t_s, k_no_entity};
     }
     const HandPull* const pull = io.pull.find(entity);
     if (pull != nullptr && hand.edge == GrabEdge::none && hand.pressed &&
         hand.state == TrackingState::tracked && !hand.resumed &&
         io.grab.elements()[index].kind == GripKind::none) {
-        return Closing{hand.start_ps, pull->closed_s, pull->body};
+        return ClosingHand{index, hand.start_ps, pull->closed_s, pull->body};
     }
     return std::nullopt;
 }
 
-// Lists the hands that may begin to grip, in the order of io.grab, and searches their surfaces: the
-// search is the largest part of the stage and depends on no other closing hand. The result is valid
-// until the next call on this thread.
-std::span<const ClosingHand> search_surfaces(const UpdateGrabsIo& io, const Tuning& tuning) {
-    thread_local std::vector<ClosingHand> closing;
-    closing.clear();
+// Lists the hands that may begin to grip in io.closing, in the order of io.grab, and searches their
+// surfaces. The search is the largest part of the stage and uses the grips from before any hand
+// closes, so that the hands can be searched in parallel.
+void search_surfaces(const UpdateGrabsIo& io, const Tuning& tuning) {
+    io.closing.clear();
     for (std::size_t index = 0; index < io.grab.size(); ++index) {
         if (const auto hand = closing_of(io, index)) {
-            closing.push_back({index, *hand, {}});
+            io.closing.push_back(*hand);
         }
     }
-    // Tasks on other threads must not name the thread-local variable.
-    std::vector<ClosingHand>& hands = closing;
     auto search = [&](std::size_t i) {
         TuningOfPlayers tunings(tuning);
-        const PlayerOrigin& origin = origin_of(io, hands[i].index);
-        hands[i].surface =
-            find_surface_target(io, io.grab.owners()[hands[i].index],
-                                origin.pose_ws * hands[i].closing.hand_ps, tunings.of(origin));
+        ClosingHand& hand = io.closing[i];
+        const PlayerOrigin& origin = origin_of(io, hand.index);
+        hand.surface = find_surface_target(io, io.grab.owners()[hand.index],
+                                           origin.pose_ws * hand.hand_ps, tunings.of(origin));
     };
     if (io.surfaces.any_thread()) {
-        parallel_for(hands.size(), search);
+        parallel_for(io.closing.size(), search);
     } else {
-        for (std::size_t i = 0; i < hands.size(); ++i) {
+        for (std::size_t i = 0; i < io.closing.size(); ++i) {
             search(i);
         }
     }
-    return closing;
 }
 
-void begin_grab(const UpdateGrabsIo& io, const ClosingHand& hand, const Tuning& tuning,
+void begin_grab(const UpdateGrabsIo& io, const ClosingHand& closing, const Tuning& tuning,
                 StageStats& stats) {
-    const auto& [index, closing, surface] = hand;
-    const Entity entity = io.grab.owners()[index];
+    const GrabSearchResult& surface = closing.surface;
+    const Entity entity = io.grab.owners()[closing.index];
     const HandOwner& owner = io.owner.at(entity);
     const auto& [origin_ws, scale] = io.origin.at(owner.player);
     const Pose hand_ws = origin_ws * closing.hand_ps;
@@ -218,11 +199,12 @@ void begin_grab(const UpdateGrabsIo& io, const ClosingHand& hand, const Tuning& 
     }
     const GrabRule* const rule = io.rules.rule_of(target->body);
     if (rule != nullptr && rule->two_hands &&
-        !other_hand_joins(io, index, *target, tuning, stats)) {
+        !other_hand_joins(io, closing.index, *target, tuning, stats)) {
         stats.note(Fallback::grab_needs_two_hands, entity, target->body);
         return;
     }
-    start_grab(io, entity, *target, closing.since_s, io.grab.elements()[index], tuning, stats);
+    start_grab(io, entity, *target, closing.since_s, io.grab.elements()[closing.index], tuning,
+               stats);
 }
 
 // A gripped body's kind or mass has changed so that it now moves the player, or now comes along.
@@ -320,8 +302,8 @@ void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& sta
     release_grabs_out_of_reach(io, tunings, stats);
     update_sights(io, tuning);
     carry_out_orders(io, tunings, stats);
-    const std::span<const ClosingHand> closing = search_surfaces(io, tuning);
-    auto next = closing.begin();
+    search_surfaces(io, tuning);
+    auto next = io.closing.begin();
     for (std::size_t index = 0; index < io.grab.size(); ++index) {
         Grab& grab = io.grab.elements()[index];
         const Entity entity = io.grab.owners()[index];
@@ -330,7 +312,7 @@ void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& sta
             grab.phase = GrabPhase::releasing;
         }
         update_authored_hold(io, entity, grab, stats);
-        if (next == closing.end() || next->index != index) {
+        if (next == io.closing.end() || next->index != index) {
             continue;
         }
         const ClosingHand& closing_hand = *next++;

@@ -23,7 +23,11 @@ constexpr double k_half_turn_rad = 3.14159265358979323846;
 std::span<const FollowedSample> follow_samples(PlaySpaceTracker space,
                                                std::span<const TrackingSample> samples,
                                                double frame_end_s, const TrackingTuning& tuning) {
+    constexpr std::size_t k_kept_samples = 64;  // memory that a thread keeps
     thread_local std::vector<FollowedSample> followed;
+    if (followed.capacity() > k_kept_samples) {
+        followed = std::vector<FollowedSample>();
+    }
     followed.clear();
     for (const TrackingSample& sample : samples) {
         const PlaySpaceTracker::Jump jump = space.follow(sample, tuning);

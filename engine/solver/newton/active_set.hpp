@@ -39,6 +39,7 @@ class RowSystem {
     std::size_t size() const { return matrix_.size(); }
     double diagonal(std::size_t row) const { return matrix_.diagonal(row); }
     // The regularisation diag(alpha): one value per row, >= 0. Takes effect with the next `solve`.
+    // Do not write to the span after that: call alpha() again.
     std::span<double> alpha() { return matrix_.alpha(); }
 
     // Solves for the multipliers of all rows. Unilateral rows push (lambda >= 0) or are inactive.

@@ -29,7 +29,7 @@ class RowMatrix {
     // Diagonal of J W J^T, without alpha.
     double diagonal(std::size_t row) const { return diagonal_[row]; }
     // The diagonal `alpha` in the equation above (regularisation): one value per row, >= 0. Takes
-    // effect with the next `factorise`.
+    // effect with the next `factorise`. Do not write to the span after that: call alpha() again.
     std::span<double> alpha() {
         is_factorised_ = false;
         return alpha_;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "components/authored_grip.hpp"
 #include "components/body.hpp"
@@ -17,6 +19,8 @@
 
 // Finds what a closing hand grips, and which hands are in sight (HandSight).
 namespace handhold {
+
+struct ClosingHand;
 
 // Inputs of the functions below and of update_grabs (UpdateGrabsIo). The functions below write only
 // `sight`.
@@ -46,6 +50,7 @@ struct GrabSearch {
     Column<HeadIgnores>& head_ignores;    // in/out: held bodies are added
     Column<BodyHold>& body_hold;          // in/out: hands that grip a part of a player
     Column<GrabOrder>& order;             // in/out: carried out and removed
+    std::vector<ClosingHand>& closing;    // scratch of update_grabs
 
     GrippableBodies bodies() const {
         return {.bodies = grippable,
@@ -74,6 +79,16 @@ struct GrabSearchResult {
     std::optional<GrabTarget> target;
     Fallback refusal = Fallback::grab_no_surface;  // reason if there is no target
     Entity refused_by = k_no_entity;               // the body that refused the hand, if any
+};
+
+// A hand that closes, or a closed one that may grip the body it pulls, and the surface it finds.
+// Scratch memory of update_grabs.
+struct ClosingHand {
+    std::size_t index = 0;  // index into GrabSearch::grab
+    Pose hand_ps;
+    double since_s = 0.0;
+    Entity only = k_no_entity;  // the pulled body; null: any body may be gripped
+    GrabSearchResult surface = {};
 };
 
 // Finds what a hand at `hand_ws` grips if it closes: the target of find_snap_target, else that of

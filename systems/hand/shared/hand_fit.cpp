@@ -43,8 +43,8 @@ class Fitter {
     }
 
   private:
-    // Rounds from the present pose. Gives up once the rounds left are not expected to reach
-    // `wanted`.
+    // Rounds from the present pose. Gives up once the cost exceeds `wanted` times k_round_gain for
+    // each round left but one.
     HandFit descend(std::int32_t rounds, double wanted) {
         constexpr double k_gain = 1e-6;  // smaller relative gains do not count
         constexpr double k_gain_m2 = 1e-12;
@@ -53,7 +53,7 @@ class Fitter {
         double cost = objective_.evaluate(pose_);
         HandFit best = described(cost);
         best.is_converged = true;
-        double most = wanted;  // cost from which the rounds left reach `wanted`
+        double most = wanted;  // greatest cost from which the next round is worthwhile
         for (std::int32_t round = 1; round < rounds; ++round) {
             most *= k_round_gain;
         }

@@ -1,6 +1,7 @@
 #include "engine/math/penalty_quadratic.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -34,6 +35,15 @@ struct Problem {
         for (std::size_t i = 0; i < row_count; ++i) {
             const Unknowns slope = random_slope(random, count);
             rows.push_back({slope, random.between(-0.5, 0.5), stiffness});
+        }
+    }
+    // Turns every second row into a limit of one unknown.
+    void limit_single_unknowns(test::Random& random) {
+        for (std::size_t r = 0; r < rows.size(); r += 2) {
+            const auto place = static_cast<int>(random.between(0.0, static_cast<double>(count)));
+            rows[r].slope = Unknowns::Zero();
+            rows[r].slope[place] = r % 4 == 0 ? 1.0 : -0.7;
+            rows[r].only = place;
         }
     }
     Unknowns gradient_at(const Unknowns& x) const {
@@ -72,15 +82,22 @@ TEST(MinimisePenalised, ContradictingRowsShareTheViolation) {
 }
 
 TEST(MinimisePenalised, VectorsOfTheProcessorDoNotChangeBits) {
+    if (fastest_vectors() == Vectors::portable) {
+        GTEST_SKIP() << "the processor's vectors are the portable ones";
+    }
     test::Random random(74);
     for (int i = 0; i < 300; ++i) {
         const auto unknowns = static_cast<std::size_t>(random.between(1.0, k_max_unknowns + 0.99));
-        const Problem problem(random, unknowns, 100, 500.0);
+        Problem problem(random, unknowns, 100, 500.0);
+        problem.limit_single_unknowns(random);
         const auto solve = [&](Vectors vectors) {
             return minimise_penalised(problem.hessian, problem.gradient, problem.rows, unknowns,
                                       vectors);
         };
-        EXPECT_EQ(solve(Vectors::portable), solve(fastest_vectors())) << i;
+        const Unknowns portable = solve(Vectors::portable);
+        const Unknowns fastest = solve(fastest_vectors());
+        EXPECT_EQ(std::memcmp(portable.data(), fastest.data(), sizeof(double) * k_max_unknowns), 0)
+            << i;
     }
 }
 
@@ -91,12 +108,7 @@ TEST(MinimisePenalised, LimitsOfOneUnknownAreRowsLikeOthers) {
     for (int i = 0; i < 300; ++i) {
         const auto unknowns = static_cast<std::size_t>(random.between(2.0, k_max_unknowns + 0.99));
         Problem problem(random, unknowns, 60, 500.0);
-        for (std::size_t r = 0; r < problem.rows.size(); r += 2) {
-            const double place = random.between(0.0, static_cast<double>(unknowns));
-            problem.rows[r].slope = Unknowns::Zero();
-            problem.rows[r].slope[static_cast<int>(place)] = r % 4 == 0 ? 1.0 : -0.7;
-            problem.rows[r].only = static_cast<int>(place);
-        }
+        problem.limit_single_unknowns(random);
         const Unknowns x =
             minimise_penalised(problem.hessian, problem.gradient, problem.rows, unknowns);
         EXPECT_LT(problem.gradient_at(x).norm(), 1e-6 * 500.0) << i;

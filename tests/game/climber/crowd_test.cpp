@@ -83,6 +83,23 @@ TEST(CrowdThreaded, HashIsEqualForOneAndTwoThreadsAndTwiceInARow) {
     set_thread_count(1);
 }
 
+// Stages process up to 64 players or hands a slice: this crowd has more.
+TEST(CrowdThreaded, HashIsEqualForSeveralSlicesOfEveryPlayerStage) {
+    const auto hash_with = [](int threads) {
+        constexpr std::size_t k_players = 66;
+        Scene scene = *make_built_in_scene("station");
+        const std::vector<hh::Player> players = add_climbers(scene, k_players, 5);
+        EXPECT_EQ(players.size(), k_players);
+        RunSettings settings{90.0, 0.4, threads};
+        settings.climbers_from = 0;
+        return run_session(scene, players, nullptr, settings).state_hash;  // of shown columns too
+    };
+    const std::uint64_t once = hash_with(1);
+    EXPECT_EQ(hash_with(2), once);
+    EXPECT_EQ(hash_with(4), once);
+    set_thread_count(1);
+}
+
 // Climbers act the same after a restore of their world.
 TEST(Crowd, ContinuesEquallyAfterARestore) {
     Scene scene = *make_built_in_scene("crowd");

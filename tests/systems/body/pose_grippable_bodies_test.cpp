@@ -2,6 +2,7 @@
 #include "systems/body/pose_grippable_bodies.hpp"
 
 #include <array>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -32,6 +33,7 @@ struct People {
     Column<BodyHold> body_hold;
     Column<HandPull> pull;
     Column<GrippableBody> bodies;
+    std::vector<GrippablePlayer> players;
     Tuning tuning;
 
     explicit People(Random& random, double apart_m) {
@@ -64,7 +66,8 @@ struct People {
                                .body_hold = body_hold,
                                .pull = pull,
                                .asking = asking,
-                               .bodies = bodies},
+                               .bodies = bodies,
+                               .players = players},
                               tuning);
     }
     Pose part_ps(std::size_t i, BodyPart part) const {
@@ -194,6 +197,7 @@ TEST(GrippableBodies, OfStillPlayersAreTheShownOnes) {
         scene.run(4.0);
         const World& w = scene.world;
         Column<GrippableBody> bodies;
+        std::vector<GrippablePlayer> players;
         pose_grippable_bodies({.origin = w.player_origin,
                                .head = w.head_tracking,
                                .measures = w.body_measures,
@@ -203,7 +207,8 @@ TEST(GrippableBodies, OfStillPlayersAreTheShownOnes) {
                                .body_hold = w.body_hold,
                                .pull = w.hand_pull,
                                .asking = scene.players[0].hands[0],
-                               .bodies = bodies},
+                               .bodies = bodies,
+                               .players = players},
                               scene.tuning);
         const Entity player = scene.players[1].player;
         ASSERT_TRUE(bodies.contains(player));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <vector>
 
 #include "systems/grab/update_grabs.hpp"
 #include "tests/systems/grab/hands_and_bodies.hpp"
@@ -27,6 +28,7 @@ struct Grabs : test::HandsAndBodies {
     Column<HeadIgnores> head_ignores;
     Column<BodyHold> body_hold;
     Column<GrabOrder> order;
+    std::vector<ClosingHand> closing;
     Column<GrippableBody> grippable;
     Column<BodyMeasures> measures;
 
@@ -83,7 +85,8 @@ struct Grabs : test::HandsAndBodies {
                       .authored_hold = authored_hold,
                       .head_ignores = head_ignores,
                       .body_hold = body_hold,
-                      .order = order},
+                      .order = order,
+                      .closing = closing},
                      tuning, stats);
     }
 };

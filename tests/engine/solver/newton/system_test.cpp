@@ -84,6 +84,48 @@ TEST(RowSystem, CachedPlansChangeNoBit) {
     }
 }
 
+// The last factor is used again only if alpha and the chosen rows are the same.
+TEST(RowSystem, ChangedAlphaIsFactorisedAgain) {
+    Random random(8);
+    const Problem problem = random_problem(5, 4, 0, random);
+    RowSystem reused = assembled(problem, 1e-6);
+    reused.solve(problem.rows);
+    for (const double alpha : {0.1, 1e-6}) {
+        for (std::size_t i = 0; i < reused.size(); ++i) {
+            reused.alpha()[i] = alpha * reused.diagonal(i);
+        }
+        RowSystem fresh = assembled(problem, alpha);
+        EXPECT_TRUE(std::ranges::equal(reused.solve(problem.rows), fresh.solve(problem.rows)));
+    }
+}
+
+TEST(RowMatrix, ChangedRowsAreFactorisedAgain) {
+    Random random(9);
+    const Problem problem = random_problem(5, 4, 0, random);
+    const auto assemble = [&](RowMatrix& matrix) {
+        matrix.assemble(problem.bodies, problem.inverse_inertias_ws, problem.rows);
+        std::ranges::fill(matrix.alpha(), 1e-6);
+    };
+    const VectorXd values = problem.values();
+    const auto solve = [&](RowMatrix& matrix, const std::vector<std::uint8_t>& chosen) {
+        std::vector<double> lambda(problem.rows.size());
+        matrix.factorise(chosen);
+        matrix.solve({values.data(), problem.rows.size()}, lambda);
+        return lambda;
+    };
+    const std::vector<std::uint8_t> all(problem.rows.size(), 1);
+    std::vector<std::uint8_t> fewer = all;
+    fewer[1] = 0;
+    RowMatrix reused;
+    assemble(reused);
+    for (const auto& chosen : {all, all, fewer, all}) {
+        RowMatrix fresh;
+        assemble(fresh);
+        EXPECT_EQ(solve(reused, chosen), solve(fresh, chosen));
+    }
+    EXPECT_NE(solve(reused, fewer), solve(reused, all));
+}
+
 RC_GTEST_PROP(RowSystem, DiagonalEqualsThatOfTheDenseMatrix, (std::uint64_t seed)) {
     Random random(seed);
     const Problem problem = random_problem(5, 3, 3, random);
