@@ -27,7 +27,7 @@ std::string reason_of(const World& world, Entity player, const BodyMeasures& bel
     if (!seen) {
         std::snprintf(text, sizeof text,
                       "Nobody measured this player, and too little play was seen: head %.1f s, "
-                      "hands %.1f s.",
+                      "hands %.1f hand-seconds.",
                       seen_s(size.eyes), seen_s(size.reach));
         return text;
     }
@@ -37,12 +37,13 @@ std::string reason_of(const World& world, Entity player, const BodyMeasures& bel
         std::fabs(wanted.eye_height_m - believed.eye_height_m) < k_settled_m &&
         std::fabs(arm_m - believed.upper_arm_m - believed.forearm_m) < k_settled_m;
     if (is_settled) {
-        std::snprintf(text, sizeof text, "From play: head seen for %.0f s, hands for %.0f s.",
+        std::snprintf(text, sizeof text,
+                      "From play that counts: head seen for %.0f s, hands for %.0f hand-seconds.",
                       seen_s(size.eyes), seen_s(size.reach));
     } else {
         std::snprintf(text, sizeof text,
                       "From play, on the way to eyes at %.2f m and arms of %.2f m: head seen for "
-                      "%.0f s, hands for %.0f s.",
+                      "%.0f s, hands for %.0f hand-seconds.",
                       wanted.eye_height_m, arm_m, seen_s(size.eyes), seen_s(size.reach));
     }
     return text;

@@ -59,6 +59,7 @@ class Generator(unittest.TestCase):
             ("hh_hand_hold", "anchor"): ("optional", None),
             ("hh_match_create", "game"): ("optional", None),
             ("hh_match_advance", "input"): ("required", None),
+            ("hh_match_drawn_player", "newest"): ("optional", None),
         })
 
     def test_every_call_in_csharp_keeps_its_objects(self):

@@ -214,7 +214,7 @@ class ShownBodies(unittest.TestCase):
         self.assertAlmostEqual(self.figures()[1]["neck bend, deg"], 12.0)
 
     def test_arms_in_the_trunk_and_bent_wrists_are_counted_by_frame(self):
-        self.assertEqual([value for name, value in self.figures()[1].items() if "frames" in name], [0.0, 0.0, 0.0])
+        self.assertEqual([value for name, value in self.figures()[1].items() if "frames" in name], [0.0, 0.0, 0.0, 0.0])
         self.body.elbow_m = self.body.elbow_m.copy()
         self.body.elbow_m[0, 1] = [0.0, 1.2, 0.05]
         self.case.hand_xyzw[1, 2:] = [0.0, np.sin(np.radians(85.0)), 0.0, np.cos(np.radians(85.0))]  # fingers back along the forearm, nearly

@@ -62,7 +62,7 @@ class CommandLine(unittest.TestCase):
         for command in ("run", "play", "pictures", "climb", "serve", "bots", "export-grip", "build-station"):
             shown[command] = self.run_game(command, "--help").out
             self.assertNotRegex(shown[command], r"[{}]|->")
-        for words in ("--turn smooth|snap", "--view behind|eyes|mirror", "--page Frame|Hands|Tuning|Entities|Gizmos"):
+        for words in ("--turn smooth|snap", "--view behind|eyes|mirror", "--page Frame|Hands|Bodies|Tuning|Entities|Gizmos"):
             self.assertIn(words, shown["play"])
         for words in (["pictures", "--scene", "reach", "--out", "o", "--hands", "flat"], ["play", "--turn", "0"]):
             ended = self.run_game(*words)

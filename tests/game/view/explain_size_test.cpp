@@ -27,7 +27,9 @@ TEST(ExplainSize, NamesMeasuresAndHowLongPlayWasSeen) {
     EXPECT_NE(session.story().reason.find("too little"), std::string::npos);
     session.run(40.0);
     const SizeStory story = session.story();
-    EXPECT_NE(story.reason.find("From play: head seen for 40 s"), std::string::npos)
+    EXPECT_NE(
+        story.reason.find("From play that counts: head seen for 40 s, hands for 80 hand-seconds"),
+        std::string::npos)
         << story.reason;
     const BodyMeasures& believed = session.scene().world().body_measures.at(session.entity());
     EXPECT_EQ(story.eye_height_m, believed.eye_height_m);
