@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <compare>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <utility>
@@ -13,13 +16,23 @@
 namespace handhold {
 namespace {
 
+// Contacts that no comparison of their doubles tells apart are sorted by part, then by their bits:
+// 0.0 equals -0.0, but the state would not.
 bool position_less(const NearContact& a, const NearContact& b) {
     const auto key = [](const NearContact& c) {
-        return std::array<double, 7>{c.point_b_ns.x(), c.point_b_ns.y(), c.point_b_ns.z(),
-                                     c.separation_m,   c.normal_ns.x(),  c.normal_ns.y(),
-                                     c.normal_ns.z()};
+        return std::array<double, 10>{c.point_b_ns.x(), c.point_b_ns.y(), c.point_b_ns.z(),
+                                      c.separation_m,   c.normal_ns.x(),  c.normal_ns.y(),
+                                      c.normal_ns.z(),  c.point_a_ns.x(), c.point_a_ns.y(),
+                                      c.point_a_ns.z()};
     };
-    return key(a) < key(b);
+    const auto key_a = key(a);
+    const auto key_b = key(b);
+    if (const std::partial_ordering order = key_a <=> key_b; order != 0) {
+        return order < 0;
+    }
+    using Bits = std::array<std::uint64_t, 10>;
+    return a.part != b.part ? a.part < b.part
+                            : std::bit_cast<Bits>(key_a) < std::bit_cast<Bits>(key_b);
 }
 
 constexpr double k_same_normal_cosine = 1.0 - 1e-7;

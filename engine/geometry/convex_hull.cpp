@@ -14,8 +14,13 @@ bool corner_less(const Vec3& a, const Vec3& b) {
 }
 
 // Sorts the points and removes duplicates, so that the result does not depend on the input's order.
+// -0.0 becomes 0.0, which it equals: which of two such duplicates is kept has no effect then.
 std::vector<Vec3> sorted(std::span<const Vec3> points) {
-    std::vector<Vec3> result(points.begin(), points.end());
+    std::vector<Vec3> result;
+    result.reserve(points.size());
+    for (const Vec3& point : points) {
+        result.emplace_back(point.array() + 0.0);
+    }
     std::sort(result.begin(), result.end(), corner_less);
     result.erase(std::unique(result.begin(), result.end()), result.end());
     return result;

@@ -1,7 +1,9 @@
 #include "engine/geometry/convex_hull.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -117,6 +119,56 @@ TEST(ConvexHull, IndependentOfPointOrder) {
     ASSERT_EQ(hull->faces.size(), again->faces.size());
     for (std::size_t i = 0; i < hull->faces.size(); ++i) {
         EXPECT_EQ(hull->faces[i].loop, again->faces[i].loop);
+    }
+}
+
+std::vector<std::uint64_t> bits_of(const ConvexHull& hull) {
+    std::vector<std::uint64_t> bits;
+    const auto add = [&bits](const Vec3& vector) {
+        for (const double value : {vector.x(), vector.y(), vector.z()}) {
+            bits.push_back(std::bit_cast<std::uint64_t>(value));
+        }
+    };
+    for (const Vec3& corner : hull.corners) {
+        add(corner);
+    }
+    for (const HullFace& face : hull.faces) {
+        add(face.normal);
+        bits.push_back(std::bit_cast<std::uint64_t>(face.offset_m));
+        bits.insert(bits.end(), face.loop.begin(), face.loop.end());
+    }
+    bits.push_back(std::bit_cast<std::uint64_t>(hull.width_m));
+    bits.push_back(std::bit_cast<std::uint64_t>(hull.omitted_m));
+    return bits;
+}
+
+// Corners on the axes' planes, each with zeros of both signs. More than 16 points: std::sort keeps
+// the order of fewer.
+TEST(ConvexHull, SignsOfZerosHaveNoEffect) {
+    std::vector<Vec3> points;
+    for (const double zero : {0.0, -0.0}) {
+        for (const double side : {-1.0, 1.0}) {
+            for (const double other : {zero, side}) {
+                points.emplace_back(side, other, zero);
+                points.emplace_back(zero, side, other);
+                points.emplace_back(other, zero, side);
+            }
+        }
+        points.emplace_back(zero, -zero, 0.0);
+    }
+    ASSERT_GT(points.size(), 16U);
+    std::vector<Vec3> positive = points;
+    for (Vec3& point : positive) {
+        point.array() += 0.0;
+    }
+    const auto expected = make_convex_hull(positive);
+    ASSERT_TRUE(expected.has_value());
+    Random random(77);
+    for (int turn = 0; turn < 200; ++turn) {
+        std::shuffle(points.begin(), points.end(), random.engine());
+        const auto hull = make_convex_hull(points);
+        ASSERT_TRUE(hull.has_value());
+        ASSERT_EQ(bits_of(*hull), bits_of(*expected)) << "turn " << turn;
     }
 }
 

@@ -40,7 +40,7 @@ export interface PlayerInput {
 declare const WorldBase: new () => Omit<WorldCalls, 'bodyJoints' | 'getTuning' | 'setTuning' | 'step' | 'stepPoseOnly'>;
 export declare class World extends WorldBase {
     private constructor();
-    /** Not inside a callback: HH_ERROR_STATE. */
+    /** Not inside a callback or in a match: HH_ERROR_STATE. A second call does nothing. */
     destroy(): void;
 
     addBox(half_extents_m: hh_vec3): hh_shape;
@@ -100,6 +100,6 @@ export declare class World extends WorldBase {
 /** A match in which a world takes part: every function of it is a method, hh_match_x as x. Your transport carries its packets. */
 export declare class Match extends MatchCalls {
     private constructor();
-    /** The world stays. Not inside a callback: HH_ERROR_STATE. Call it before the world's destroy(). */
+    /** The world stays. Not inside a callback: HH_ERROR_STATE. Call it before the world's destroy(). A second call does nothing. */
     destroy(): void;
 }

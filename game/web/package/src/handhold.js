@@ -156,14 +156,22 @@ addCalls(WorldCalls, 'hh_world');
 
 /** A simulation. Ids are what its functions return; call destroy() when it is no longer needed. */
 export class World extends WorldCalls {
+    #matches = 0;
+
     constructor(library, handle) {
         super();
         this.library = library;
         this.handle = handle;
     }
-    /** Not inside a callback: HH_ERROR_STATE. */
+    /** Not inside a callback or in a match: HH_ERROR_STATE. A second call does nothing. */
     destroy() {
+        if (this.handle === 0) {
+            return;
+        }
         this.library.refuseInCallback('a world');
+        if (this.#matches > 0) {
+            throw new HandholdError(HH_ERROR_STATE, 'HH_ERROR_STATE: a world cannot be destroyed while it is in a match');
+        }
         this.library.exports.hh_world_destroy(this.handle);
         this.handle = 0;
         this.setFunctions('', []);
@@ -182,7 +190,8 @@ export class World extends WorldCalls {
                 m.functions.remove(places);
                 throw error;
             }
-            const match = new Match(this.library, m.view.getUint32(out, true));
+            const match = new Match(this.library, m.view.getUint32(out, true), () => { --this.#matches; });
+            ++this.#matches;
             match.setFunctions('hh_match_game', places);
             return match;
         });
@@ -212,17 +221,24 @@ addCalls(MatchCalls, 'hh_match');
 
 /** A match in which a world takes part, on a server, a client or a spectator. Your transport carries its packets. */
 export class Match extends MatchCalls {
-    constructor(library, handle) {
+    #ended;
+
+    constructor(library, handle, ended) {
         super();
         this.library = library;
         this.handle = handle;
+        this.#ended = ended;
     }
-    /** The world stays. Not inside a callback: HH_ERROR_STATE. Call it before the world's destroy(). */
+    /** The world stays. Not inside a callback: HH_ERROR_STATE. Call it before the world's destroy(). A second call does nothing. */
     destroy() {
+        if (this.handle === 0) {
+            return;
+        }
         this.library.refuseInCallback('a match');
         this.library.exports.hh_match_destroy(this.handle);
         this.handle = 0;
         this.setFunctions('', []);
+        this.#ended();
     }
 }
 

@@ -15,7 +15,11 @@ export function addCalls(type, handle) {
     type.prototype.setFunctions = function (name, places) {
         this.functions ??= new Map();
         const old = name === '' ? [...this.functions.values()].flat() : this.functions.get(name) ?? [];
-        this.functions.set(name, places);
+        if (name === '') {
+            this.functions.clear();
+        } else {
+            this.functions.set(name, places);
+        }
         this.library.memory.functions.remove(old);
     };
 }

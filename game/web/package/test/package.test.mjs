@@ -10,8 +10,8 @@ import { playWall } from './wall_scene.mjs';
 
 const folder = pathToFileURL(resolve(process.env.HANDHOLD_PACKAGE) + '/');
 const handholdModule = await import(new URL('handhold.js', folder));
-const { loadHandhold, HandholdError, structs, HH_DYNAMIC, HH_ERROR_DATA, HH_ERROR_HANDLE, HH_ERROR_VALUE, HH_GRIP_HELD, HH_GRIP_SURFACE, HH_HEAD, HH_HINGE,
-    HH_LEFT, HH_LEFT_FOOT, HH_MATCH_CLIENT, HH_MATCH_SERVER, HH_MATCH_SYNC_TEST, HH_RIGHT, HH_SPACE_WORLD } = handholdModule;
+const { loadHandhold, HandholdError, structs, HH_DYNAMIC, HH_ERROR_DATA, HH_ERROR_HANDLE, HH_ERROR_STATE, HH_ERROR_VALUE, HH_GRIP_HELD, HH_GRIP_SURFACE, HH_HEAD,
+    HH_HINGE, HH_LEFT, HH_LEFT_FOOT, HH_MATCH_CLIENT, HH_MATCH_SERVER, HH_MATCH_SYNC_TEST, HH_RIGHT, HH_SPACE_WORLD } = handholdModule;
 const { layoutOf } = await import(new URL('memory.js', folder));
 const { calls } = await import(new URL('calls.js', folder));
 const handhold = await loadHandhold();
@@ -144,6 +144,43 @@ test('what a game forgets to restore is found by a sync test', () => {
         match.destroy();
         world.destroy();
     }
+});
+
+test('a world in a match is not destroyed, and keeps its functions', () => {
+    const { world, player } = makeWall();
+    let asked = 0;
+    world.setSurfaceQuery({ closest_point() { ++asked; return null; } });
+    const syncTest = { role: HH_MATCH_SYNC_TEST, players: [player] };
+    const match = world.createMatch(syncTest);
+    assert.throws(() => world.createMatch(syncTest), (error) => error.result === HH_ERROR_STATE);
+    const isRefused = (error) => error instanceof HandholdError && error.result === HH_ERROR_STATE && /in a match/.test(error.message);
+    assert.throws(() => world.destroy(), isRefused);
+    for (let tick = 1; tick <= 60; ++tick) {
+        assert.equal(match.syncTest([{ samples: [sampleAt(tick / 90)] }]).tick, 0n);
+    }
+    assert.ok(asked > 0);
+    match.destroy();
+    match.destroy(); // counts once
+    const next = world.createMatch(syncTest);
+    assert.throws(() => world.destroy(), isRefused);
+    next.destroy();
+    world.destroy();
+});
+
+test('a second destroy() frees nothing of others', () => {
+    const [first, second] = [makeWall(), makeWall()];
+    let asked = 0;
+    const query = { closest_point() { ++asked; return null; } };
+    first.world.setSurfaceQuery(query);
+    first.world.destroy();
+    second.world.setSurfaceQuery(query); // in the places that are free now
+    first.world.destroy();
+    const other = makeWall();
+    other.world.setSurfaceQuery({ closest_point() { throw new RangeError('of another world'); } });
+    play(second, 1, 60);
+    assert.ok(asked > 0);
+    other.world.destroy();
+    second.world.destroy();
 });
 
 test("a host's own physics gets the hash of a native program that makes the same calls", (context) => {
