@@ -7,7 +7,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <compare>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -27,8 +26,8 @@ bool position_less(const NearContact& a, const NearContact& b) {
     };
     const auto key_a = key(a);
     const auto key_b = key(b);
-    if (const std::partial_ordering order = key_a <=> key_b; order != 0) {
-        return order < 0;
+    if (key_a != key_b) {
+        return key_a < key_b;
     }
     using Bits = std::array<std::uint64_t, 10>;
     return a.part != b.part ? a.part < b.part
