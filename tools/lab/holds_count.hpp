@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -42,12 +43,9 @@ struct HoldsCount {
 
   private:
     static bool is_held(const World& world, Entity body) {
-        for (const Grab& grab : world.grab.elements()) {
-            if (grab.kind != GripKind::none && grab.body == body) {
-                return true;
-            }
-        }
-        return false;
+        return std::ranges::any_of(world.grab.elements(), [body](const Grab& grab) {
+            return grab.kind != GripKind::none && grab.body == body;
+        });
     }
     void count_throws(const World& world) {
         for (const Entity body : held_) {
