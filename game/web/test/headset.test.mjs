@@ -8,6 +8,8 @@ import { npm, withPage } from './page.mjs';
 const emulator = readFileSync(join(npm, 'iwer/build/iwer.min.js'), 'utf8') + `;
     window.emulated = new IWER.XRDevice(IWER.metaQuest3);
     emulated.installRuntime({ forceInstall: true });
+    // The emulator says that the positions of its controllers are guesses, and the page does not grip with those.
+    Object.defineProperty(XRPose.prototype, 'emulatedPosition', { get: () => false });
     emulated.position.set(0, 1.6, 0);
     emulated.controllers.left.position.set(-0.25, 1.35, -0.3);
     emulated.controllers.right.position.set(0.25, 1.35, -0.3);`;
