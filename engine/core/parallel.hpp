@@ -45,4 +45,16 @@ void parallel_slices(std::size_t count, std::size_t grain, F& task) {
     parallel_for(slices, run);
 }
 
+// Calls task(i) once for every i in [0, count), in slices of `grain` indices. For tasks that take
+// less time than it takes to start one.
+template <typename F>
+void parallel_each(std::size_t count, std::size_t grain, const F& task) {
+    const auto run = [&task](std::size_t /*slice*/, std::size_t first, std::size_t last) {
+        for (std::size_t index = first; index < last; ++index) {
+            task(index);
+        }
+    };
+    parallel_slices(count, grain, run);
+}
+
 }  // namespace handhold

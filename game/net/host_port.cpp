@@ -9,11 +9,6 @@
 
 namespace handhold {
 
-std::string HostPort::text() const {
-    const bool is_v6 = host.find(':') != std::string::npos;
-    return (is_v6 ? "[" + host + "]" : host) + ":" + std::to_string(port);
-}
-
 std::optional<HostPort> read_host_port(std::string_view text, int default_port) {
     HostPort out{.host = {}, .port = default_port};
     if (text.starts_with('[')) {
@@ -23,7 +18,7 @@ std::optional<HostPort> read_host_port(std::string_view text, int default_port) 
         }
         out.host = std::string(text.substr(1, end - 1));
         text.remove_prefix(end + 1);
-        if (!is_address(out.host) || out.host.find(':') == std::string::npos) {
+        if (!is_address(out.host) || !out.is_v6()) {
             return std::nullopt;
         }
     } else {

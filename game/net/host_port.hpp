@@ -11,8 +11,10 @@ struct HostPort {
     std::string host;  // addresses of IPv6 without brackets
     int port = 0;      // 1 to 65535
 
-    // As in URLs: HOST:PORT, or [ADDRESS]:PORT for IPv6.
-    std::string text() const;
+    bool is_v6() const { return host.find(':') != std::string::npos; }
+    // As in URLs: HOST, or [ADDRESS] for IPv6; and with the port.
+    std::string host_text() const { return is_v6() ? "[" + host + "]" : host; }
+    std::string text() const { return host_text() + ":" + std::to_string(port); }
 };
 
 // Reads HOST, HOST:PORT, [ADDRESS] or [ADDRESS]:PORT. `default_port` where none is given; 0: one

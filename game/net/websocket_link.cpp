@@ -43,12 +43,10 @@ std::optional<WebSocketUrl> parse_url(std::string_view url) {
 class WebSocketLink final : public Link {
   public:
     explicit WebSocketLink(WebSocketUrl url)
-        : url_(std::move(url)),
-          host_(is_v6() ? "[" + url_.place.host + "]" : url_.place.host),
-          protocols_(protocols()) {
+        : url_(std::move(url)), host_(url_.place.host_text()), protocols_(protocols()) {
         // A name whose addresses of IPv6 lead nowhere may have one of IPv4 that works: that comes
         // first.
-        families_ = is_v6() ? 0 : LWS_SERVER_OPTION_DISABLE_IPV6;
+        families_ = url_.place.is_v6() ? 0 : LWS_SERVER_OPTION_DISABLE_IPV6;
         connect();
     }
 
@@ -88,7 +86,6 @@ class WebSocketLink final : public Link {
     }
 
   private:
-    bool is_v6() const { return url_.place.host.find(':') != std::string::npos; }
     void connect() {
         context_ = std::make_unique<WebSocketContext>(info());
         if (context_->get() == nullptr) {

@@ -115,11 +115,11 @@ class WebSocketListener final : public Listener {
         info.iface = settings_.address.c_str();
         info.protocols = protocols_.data();
         info.user = this;
-        const bool is_v6 = settings_.address.find(':') != std::string::npos;
         info.options = LWS_SERVER_OPTION_FAIL_UPON_UNABLE_TO_BIND |
                        LWS_SERVER_OPTION_SKIP_SERVER_CANONICAL_NAME |
-                       (is_v6 ? LWS_SERVER_OPTION_IPV6_V6ONLY_MODIFY  // IPv4 too, at ::
-                              : LWS_SERVER_OPTION_DISABLE_IPV6);
+                       (HostPort{settings_.address, 0}.is_v6()
+                            ? LWS_SERVER_OPTION_IPV6_V6ONLY_MODIFY  // IPv4 too, at ::
+                            : LWS_SERVER_OPTION_DISABLE_IPV6);
         info.fd_limit_per_thread = static_cast<unsigned>(settings_.most_links) + k_other_files;
         info.timeout_secs = 5;
         info.keepalive_timeout = 5;

@@ -192,12 +192,8 @@ void clear_player(const ClearArmsIo& io, std::size_t index) {
 
 void clear_arms(const ClearArmsIo& io) {
     constexpr std::size_t k_players_per_slice = 32;
-    const auto clear = [&io](std::size_t /*slice*/, std::size_t first, std::size_t last) {
-        for (std::size_t index = first; index < last; ++index) {
-            clear_player(io, index);
-        }
-    };
-    parallel_slices(io.arms.size(), k_players_per_slice, clear);
+    parallel_each(io.arms.size(), k_players_per_slice,
+                  [&io](std::size_t index) { clear_player(io, index); });
 }
 
 }  // namespace handhold

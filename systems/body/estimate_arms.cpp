@@ -138,34 +138,31 @@ void estimate_arms(const EstimateArmsIo& io, const ArmTuning& tuning) {
     take_hands(io);
     const EstimateStep step = estimate_step(io.dt_s, 1.0, tuning);
     constexpr std::size_t k_players_per_slice = 16;
-    const auto estimate = [&](std::size_t /*slice*/, std::size_t first, std::size_t last) {
-        for (std::size_t index = first; index < last; ++index) {
-            const Entity player = io.estimate.owners()[index];
-            ArmMemory* const memory = io.memory.find(player);
-            const HeadTracking* const head = io.head.find(player);
-            const BodyMeasures* const measures = io.measures.find(player);
-            if (memory != nullptr && head != nullptr && measures != nullptr) {
-                ArmEstimate& out = io.estimate.elements()[index];
-                TrackedBody body{head->pose_ps,
-                                 {out.arms[0].hand_ps, out.arms[1].hand_ps},
-                                 *measures,
-                                 head->shift_m.y()};
-                const auto estimate_at = [&](const EstimateStep& frame) {
-                    place_lost_hands(frame, out, body, *memory);
-                    estimate_player(body, frame, *memory, out);
-                };
-                const double scale = io.origin.at(player).scale;
-                if (scale == 1.0) {
-                    estimate_at(step);
-                } else {
-                    ArmTuning own = tuning;
-                    own.shoulder_follow_m *= scale;
-                    estimate_at(estimate_step(io.dt_s, scale, own));
-                }
+    parallel_each(io.estimate.size(), k_players_per_slice, [&](std::size_t index) {
+        const Entity player = io.estimate.owners()[index];
+        ArmMemory* const memory = io.memory.find(player);
+        const HeadTracking* const head = io.head.find(player);
+        const BodyMeasures* const measures = io.measures.find(player);
+        if (memory != nullptr && head != nullptr && measures != nullptr) {
+            ArmEstimate& out = io.estimate.elements()[index];
+            TrackedBody body{head->pose_ps,
+                             {out.arms[0].hand_ps, out.arms[1].hand_ps},
+                             *measures,
+                             head->shift_m.y()};
+            const auto estimate_at = [&](const EstimateStep& frame) {
+                place_lost_hands(frame, out, body, *memory);
+                estimate_player(body, frame, *memory, out);
+            };
+            const double scale = io.origin.at(player).scale;
+            if (scale == 1.0) {
+                estimate_at(step);
+            } else {
+                ArmTuning own = tuning;
+                own.shoulder_follow_m *= scale;
+                estimate_at(estimate_step(io.dt_s, scale, own));
             }
         }
-    };
-    parallel_slices(io.estimate.size(), k_players_per_slice, estimate);
+    });
     give_hands(io);
 }
 

@@ -137,17 +137,14 @@ void follow_seen_measures(const EstimateSizesIo& io, std::size_t index) {
 
 void estimate_sizes(const EstimateSizesIo& io) {
     constexpr std::size_t k_players_per_slice = 32;
-    const auto estimate = [&io](std::size_t /*slice*/, std::size_t first, std::size_t last) {
-        for (std::size_t index = first; index < last; ++index) {
-            SizeEstimate& size = io.size.elements()[index];
-            size.is_measured = size.is_measured || io.calibration.at(io.size.owners()[index]).done;
-            if (!size.is_measured) {
-                see_player(io, index);
-                follow_seen_measures(io, index);
-            }
+    parallel_each(io.size.size(), k_players_per_slice, [&io](std::size_t index) {
+        SizeEstimate& size = io.size.elements()[index];
+        size.is_measured = size.is_measured || io.calibration.at(io.size.owners()[index]).done;
+        if (!size.is_measured) {
+            see_player(io, index);
+            follow_seen_measures(io, index);
         }
-    };
-    parallel_slices(io.size.size(), k_players_per_slice, estimate);
+    });
 }
 
 }  // namespace handhold

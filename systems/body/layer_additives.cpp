@@ -11,6 +11,8 @@
 namespace handhold {
 namespace {
 
+constexpr std::size_t k_players_per_slice = 32;
+
 double length_of(const BodyClip& clip) { return clip.keys.empty() ? 0.0 : clip.keys.back().at; }
 
 // Turns a pose by a rotation vector. For a zero vector, returns the pose unchanged, bit for bit.
@@ -211,33 +213,23 @@ void layer_clavicles(const LayerClaviclesIo& io, const AdditiveTuning& additive,
     if (additive.clavicle == 0.0 || io.clips.at(BodyClipName::clavicle).keys.empty()) {
         return;
     }
-    constexpr std::size_t k_players_per_slice = 32;
-    const auto layer = [&](std::size_t /*slice*/, std::size_t first, std::size_t last) {
-        for (std::size_t index = first; index < last; ++index) {
-            const BodyMeasures* const measures = io.measures.find(io.estimate.owners()[index]);
-            if (measures == nullptr) {
-                continue;
-            }
-            ArmEstimate& estimate = io.estimate.elements()[index];
-            for (const HandSide side : {HandSide::left, HandSide::right}) {
-                turn_clavicle(io.clips, side, measures->upper_arm_m + measures->forearm_m,
-                              arm.reach, additive.clavicle, estimate.chest_ps,
-                              estimate.arms[index_of(side)]);
-            }
+    parallel_each(io.estimate.size(), k_players_per_slice, [&](std::size_t index) {
+        const BodyMeasures* const measures = io.measures.find(io.estimate.owners()[index]);
+        if (measures == nullptr) {
+            return;
         }
-    };
-    parallel_slices(io.estimate.size(), k_players_per_slice, layer);
+        ArmEstimate& estimate = io.estimate.elements()[index];
+        for (const HandSide side : {HandSide::left, HandSide::right}) {
+            turn_clavicle(io.clips, side, measures->upper_arm_m + measures->forearm_m, arm.reach,
+                          additive.clavicle, estimate.chest_ps, estimate.arms[index_of(side)]);
+        }
+    });
 }
 
 void layer_additives(const LayerAdditivesIo& io, const AdditiveTuning& tuning) {
     see_hands(io);
-    constexpr std::size_t k_players_per_slice = 32;
-    const auto layer = [&](std::size_t /*slice*/, std::size_t first, std::size_t last) {
-        for (std::size_t index = first; index < last; ++index) {
-            layer_player(io, index, tuning);
-        }
-    };
-    parallel_slices(io.state.size(), k_players_per_slice, layer);
+    parallel_each(io.state.size(), k_players_per_slice,
+                  [&](std::size_t index) { layer_player(io, index, tuning); });
 }
 
 }  // namespace handhold

@@ -76,12 +76,8 @@ void limit_pelvis_of(const LimitPelvisIo& io, std::size_t index) {
 
 void limit_pelvis(const LimitPelvisIo& io) {
     constexpr std::size_t k_players_per_slice = 32;
-    const auto limit = [&io](std::size_t /*slice*/, std::size_t first, std::size_t last) {
-        for (std::size_t index = first; index < last; ++index) {
-            limit_pelvis_of(io, index);
-        }
-    };
-    parallel_slices(io.pose.size(), k_players_per_slice, limit);
+    parallel_each(io.pose.size(), k_players_per_slice,
+                  [&io](std::size_t index) { limit_pelvis_of(io, index); });
 }
 
 }  // namespace handhold

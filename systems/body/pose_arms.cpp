@@ -12,19 +12,16 @@ void pose_arms(const PoseArmsIo& io) {
             io.origin.at(player).pose_ws * io.estimate.at(player).chest_ps;
     }
     constexpr std::size_t k_hands_per_slice = 64;
-    const auto pose = [&io](std::size_t /*slice*/, std::size_t first, std::size_t last) {
-        for (std::size_t index = first; index < last; ++index) {
-            const HandOwner& owner = io.owner.elements()[index];
-            ArmPose& arms = io.arms.at(owner.player);
-            const std::size_t side = index_of(owner.side);
-            pose_arm({.origin_ws = io.origin.at(owner.player).pose_ws,
-                      .chest_ws = arms.chest_ws,
-                      .measures = io.measures.at(owner.player)},
-                     io.estimate.at(owner.player).arms[side],
-                     io.palm.at(io.owner.owners()[index]).pose_ws, arms.arms[side]);
-        }
-    };
-    parallel_slices(io.owner.size(), k_hands_per_slice, pose);
+    parallel_each(io.owner.size(), k_hands_per_slice, [&io](std::size_t index) {
+        const HandOwner& owner = io.owner.elements()[index];
+        ArmPose& arms = io.arms.at(owner.player);
+        const std::size_t side = index_of(owner.side);
+        pose_arm({.origin_ws = io.origin.at(owner.player).pose_ws,
+                  .chest_ws = arms.chest_ws,
+                  .measures = io.measures.at(owner.player)},
+                 io.estimate.at(owner.player).arms[side],
+                 io.palm.at(io.owner.owners()[index]).pose_ws, arms.arms[side]);
+    });
 }
 
 }  // namespace handhold

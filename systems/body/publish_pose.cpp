@@ -39,12 +39,8 @@ void publish_hand(const PublishPoseIo& io, std::size_t index, TuningOfPlayers& t
 
 void publish_pose(const PublishPoseIo& io, const Tuning& tuning) {
     constexpr std::size_t k_elements_per_slice = 64;
-    const auto heads = [&](std::size_t /*slice*/, std::size_t first, std::size_t last) {
-        for (std::size_t index = first; index < last; ++index) {
-            publish_head(io, index, tuning.head);
-        }
-    };
-    parallel_slices(io.render.size(), k_elements_per_slice, heads);
+    parallel_each(io.render.size(), k_elements_per_slice,
+                  [&](std::size_t index) { publish_head(io, index, tuning.head); });
     for (const PushBack& push_back : io.push_backs) {
         if (RenderPose* const out = io.render.find(push_back.player)) {
             out->push_back_m = push_back.distance_m;

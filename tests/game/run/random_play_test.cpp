@@ -167,8 +167,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, HostilePlay,
                          testing::Values(PlayCase{"crowd", 3, 4, 1000},
                                          PlayCase{"station", 4, 4, 9000},
                                          PlayCase{"ship", 2, 3, 10000},
-                                         // Open space: seeds 1 to 8 grip 3 to 111 times, and pull
-                                         // but for seed 1.
+                                         // Open space: seeds 1 to 8 grip 3 to 111 times. All but
+                                         // seed 1 pull.
                                          PlayCase{"reach", 3, 0, 6000, true, 600, 3},
                                          PlayCase{"station", 4, 2, 4000, true}),
                          [](const auto& test) {

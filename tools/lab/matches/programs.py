@@ -123,6 +123,6 @@ def metric_in(text, name):
 
 
 def fuzz_runs(text):
-    """{target: inputs} of what tools/fuzz prints; a target with a finding is None."""
+    """Reads the output of tools/fuzz: {target: number of inputs}. The number is None if the target failed."""
     runs = {name: int(count) for name, count in re.findall(r"^(\w+) +(\d+) runs, nothing found$", text, re.MULTILINE)}
     return {**runs, **{name: None for name in re.findall(r"^(\w+) +FAILED", text, re.MULTILINE)}}
