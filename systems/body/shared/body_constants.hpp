@@ -7,8 +7,8 @@
 #include "systems/body/shared/body_network.hpp"
 
 // Constants of the estimator of chest and elbows. Written by tools/lab/fit_body; do not edit.
-// Commit 3cedc347-dirty. Data: body_train, 29 people fitted, 10 to choose by. Scores of those who
-//   were not fitted, without low-pass filters: mean (lowest to highest with one person left out).
+// Commit 319cd741. Data: body_train, 29 people fitted, 10 to choose by. Scores of those who were
+//   not fitted, without low-pass filters: mean (lowest to highest with one person left out).
 // Chest:
 //   the talk's formulas, 0 numbers: chest yaw, deg 9.65 (8.69 to 10.09); shoulder, cm 5.29 (5.13
 //     to 5.43)
