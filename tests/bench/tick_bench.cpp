@@ -58,21 +58,21 @@ class Match {
         inputs_[tick_ % ticks_].copy(given_);
         ++tick_;
         const std::size_t first = tick_ - std::min(tick_, ticks_);
-        const std::int64_t begin_ns = stage_now_ns();
+        const std::int64_t begin_ns = thread_cpu_now_ns();
         states_[first % ticks_].restore(columns().world);
         for (std::size_t tick = first; tick + 1 < tick_; ++tick) {
-            const std::int64_t tick_ns = stage_now_ns();
+            const std::int64_t tick_ns = thread_cpu_now_ns();
             const std::vector<hh_player_input>& inputs = inputs_[tick % ticks_].inputs;
             if (!scene_.host.step_simulated(k_dt_s, inputs)) {
                 return false;
             }
-            tick_us.push_back(1e-3 * static_cast<double>(stage_now_ns() - tick_ns));
+            tick_us.push_back(1e-3 * static_cast<double>(thread_cpu_now_ns() - tick_ns));
         }
-        const std::int64_t shown_ns = stage_now_ns();
+        const std::int64_t shown_ns = thread_cpu_now_ns();
         if (!scene_.host.step(k_dt_s, inputs_[(tick_ - 1) % ticks_].inputs)) {
             return false;
         }
-        const std::int64_t end_ns = stage_now_ns();
+        const std::int64_t end_ns = thread_cpu_now_ns();
         shown_us.push_back(1e-3 * static_cast<double>(end_ns - shown_ns));
         frame_ms.push_back(1e-6 * static_cast<double>(end_ns - begin_ns));
         for (const Grab& grab : columns().world.grab.elements()) {
@@ -113,7 +113,6 @@ void add_percentiles(const std::string& name, std::vector<double>& values,
 // Thread CPU time, independent of other load; one thread.
 void play(benchmark::State& state, const char* name, std::size_t ticks = 18) {
     const auto players = static_cast<std::size_t>(state.range(0));
-    set_stage_clock(StageClock::thread_cpu);
     for (auto _ : state) {
         Match match(name, players, ticks);
         for (int frame = 0; frame < k_frames; ++frame) {

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/core/parallel.hpp"
-#include "engine/core/profile.hpp"
 #include "engine/core/text_file.hpp"
 #include "tools/lab/exit_status.hpp"
 #include "tools/lab/match_run.hpp"
@@ -139,7 +138,6 @@ int match_command(const MatchOptions& options) {
                      "handhold-lab: --input: expected with --scene recorded, and only there\n");
         return k_exit_usage;
     }
-    set_stage_clock(options.threads == 1 ? StageClock::thread_cpu : StageClock::wall);
     set_thread_count(options.threads);
     MatchRunOptions run;
     run.setting.scene = options.scene;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "engine/core/parallel.hpp"
 #include "engine/core/profile.hpp"
 #include "systems/match/client_session.hpp"
 #include "systems/match/server_session.hpp"
@@ -18,8 +19,11 @@ constexpr double k_warm_s = 2.0;
 constexpr double k_look_s = 1.0 / 360.0;  // how often the server looks at its packets
 constexpr std::size_t k_kept = ClientSession::k_window;
 
+// Clock of calls that may run on several threads.
+std::int64_t call_now_ns() { return thread_count() == 1 ? thread_cpu_now_ns() : now_ns(); }
+
 double us_since(std::int64_t begin_ns) {
-    return 1e-3 * static_cast<double>(stage_now_ns() - begin_ns);
+    return 1e-3 * static_cast<double>(call_now_ns() - begin_ns);
 }
 
 PointsOfAll moved_by(const PointsOfAll& points, const PointsOfAll& offsets) {
@@ -124,7 +128,7 @@ class MatchRun {
     void deliver() {
         network_.deliver(now_s_,
                          [&](std::size_t from, std::size_t to, std::span<const std::byte> bytes) {
-                             const std::int64_t begin_ns = stage_now_ns();
+                             const std::int64_t begin_ns = call_now_ns();
                              if (to == place_of_server()) {
                                  server_->receive(from, bytes, now_s_);
                                  server_us_ += us_since(begin_ns);
@@ -138,7 +142,7 @@ class MatchRun {
         for (;;) {
             const MatchTick before = server_->confirmed();
             const std::uint64_t filled = server_->counts().filled;
-            const std::int64_t begin_ns = stage_now_ns();
+            const std::int64_t begin_ns = call_now_ns();
             server_->advance(now_s_, 1);
             server_us_ += us_since(begin_ns);
             if (server_->confirmed() == before) {
@@ -159,7 +163,7 @@ class MatchRun {
         }
         std::array<std::byte, k_most_packet_bytes> packet{};
         for (std::size_t i = 0; i < peer_count(); ++i) {
-            const std::int64_t begin_ns = stage_now_ns();
+            const std::int64_t begin_ns = call_now_ns();
             const std::size_t size = server_->write_packet(i, packet);
             server_us_ += us_since(begin_ns);
             peers_[i]->down_bytes += static_cast<double>(size) + options_.network.overhead_bytes;
@@ -214,7 +218,7 @@ class MatchRun {
         const MatchTick tick = peer.session->now() + 1;
         const MatchInput own = own_input(i);
         const std::uint64_t again = peer.session->counts().steps_again;
-        const std::int64_t begin_ns = stage_now_ns();
+        const std::int64_t begin_ns = call_now_ns();
         if (!peer.session->advance(own, is_shown)) {
             return;
         }

@@ -17,7 +17,8 @@ struct MatchRunOptions {
     std::uint64_t seed = 1;
 };
 
-// Figures of a match. Times are CPU times of the calling thread.
+// Figures of a match. Times are CPU times of the calling thread; of the wall clock with more than
+// one.
 struct MatchFigures {
     std::uint64_t ticks = 0;  // sum over all clients
     std::uint64_t confirmed_ticks = 0;

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/core/parallel.hpp"
-#include "engine/core/profile.hpp"
 #include "game/session/interrupt.hpp"
 #include "tools/lab/exit_status.hpp"
 
@@ -108,7 +107,6 @@ const char* fault_of(const SocketMatchFigures& figures) {
 }  // namespace
 
 int socket_match_command(const SocketMatchOptions& options, const std::filesystem::path& json) {
-    set_stage_clock(StageClock::thread_cpu);
     set_thread_count(1);
     const Result<SocketMatchFigures> figures = run_socket_match(options);
     if (!figures) {

@@ -146,12 +146,12 @@ class SocketPeer {
 
     void frame() {
         const std::uint64_t again = peer_.match().stats().steps_again;
-        const std::int64_t begin_ns = stage_now_ns();
+        const std::int64_t begin_ns = thread_cpu_now_ns();
         const std::uint32_t ticks = peer_.poll(0.0, [this](double end_s, PeerInput& input) {
             note_tick();
             hands_(end_s, input);
         });
-        const double us = 1e-3 * static_cast<double>(stage_now_ns() - begin_ns);
+        const double us = 1e-3 * static_cast<double>(thread_cpu_now_ns() - begin_ns);
         if (ticks == 0) {
             std::this_thread::sleep_for(std::chrono::duration<double>(k_look_s));
             return;

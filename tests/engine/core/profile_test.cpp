@@ -1,6 +1,7 @@
 #include "engine/core/profile.hpp"
 
 #include <atomic>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -247,6 +248,34 @@ TEST(ProfileThreaded, TracesMayStartStopAndBeWrittenWhileThreadsOpenZones) {
     is_done = true;
     first.join();
     second.join();
+}
+
+// A frame reads the clock at both ends of each stage: its time must not be that of the reads.
+TEST(StageClock, LeavesOutTheCostOfItsReads) {
+    constexpr int k_reads = 20000;
+    set_stage_clock(StageClock::thread_cpu);
+    const std::int64_t begin_cpu_ns = thread_cpu_now_ns();
+    const std::int64_t begin_ns = stage_now_ns();
+    for (int read = 0; read < k_reads; ++read) {
+        stage_now_ns();
+    }
+    const std::int64_t ns = stage_now_ns() - begin_ns;
+    const std::int64_t cpu_ns = thread_cpu_now_ns() - begin_cpu_ns;
+    set_stage_clock(StageClock::wall);
+    EXPECT_LE(std::abs(ns), cpu_ns * 3 / 4);
+}
+
+TEST(StageClock, CountsTheWorkBetweenReads) {
+    set_stage_clock(StageClock::thread_cpu);
+    const std::int64_t begin_ns = stage_now_ns();
+    const std::int64_t begin_cpu_ns = thread_cpu_now_ns();
+    std::atomic<int> work = 0;
+    while (thread_cpu_now_ns() - begin_cpu_ns < 5'000'000) {
+        ++work;
+    }
+    const std::int64_t ns = stage_now_ns() - begin_ns;
+    set_stage_clock(StageClock::wall);
+    EXPECT_GE(ns, 4'900'000);
 }
 
 }  // namespace
