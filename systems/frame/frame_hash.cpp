@@ -68,9 +68,10 @@ std::uint64_t hash_columns(const World& world, const VisitMembers& visit_members
     std::uint64_t sum = 0;
     visit_members([&](const char* name, auto member) {
         const auto& column = world.*member;
+        const std::uint64_t column_name = hash_text(name);
         for (std::size_t index = 0; index < column.size(); ++index) {
             HashStream stream;
-            stream.add(hash_text(name));
+            stream.add(column_name);
             stream.add(world.persistent_id.at(column.owners()[index]).value);
             visit_fields(column.elements()[index], FieldHasher(world, stream));
             sum += stream.value();
