@@ -19,7 +19,7 @@ namespace {
 
 std::atomic<StageClock> g_stage_clock{StageClock::wall};
 std::atomic<std::int64_t> g_read_ns{0};  // cost of thread_cpu_now_ns
-thread_local std::int64_t t_reads = 0;   // of the stage clock
+thread_local std::int64_t t_reads = 0;   // number of reads of the stage clock
 
 // The mean cost of a read in the fastest of some batches.
 std::int64_t measure_read_ns() {

@@ -15,7 +15,7 @@ namespace handhold {
 // Nanoseconds of a steady clock.
 std::int64_t now_ns();
 
-// Nanoseconds of CPU time of the calling thread. A system call of 0.2 to 0.6 us.
+// Nanoseconds of CPU time of the calling thread. A system call, slower than now_ns.
 std::int64_t thread_cpu_now_ns();
 
 // Clock of stage times. Default: the wall clock. A tool that measures on a busy machine may select

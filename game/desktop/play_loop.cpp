@@ -11,13 +11,14 @@
 #include "game/ui/hud.hpp"
 #include "game/ui/inspector.hpp"
 #include "game/ui/menu.hpp"
+#include "game/view/drawn_match.hpp"
 #include "game/view/free_camera.hpp"
-#include "game/view/match_offsets.hpp"
 
 namespace handhold {
 namespace {
 
 constexpr double k_status_s = 0.1;
+constexpr double k_longest_picture_s = 0.1;  // what a picture's motion takes in at most
 
 // Clears the input that applies to the first step only, if a poll is followed by several steps.
 // Buttons that are held down stay.
@@ -153,9 +154,7 @@ class Loop {
     // Not const: outside cameras update the walls they avoid.
     Pose camera_ws() {
         const std::size_t index = scene().world().render_pose.find_index(player());
-        const RenderPose& stepped = scene().world().render_pose.elements()[index];
-        const RenderPose render =
-            index < offsets_.size() ? displaced(stepped, offsets_[index]) : stepped;
+        const RenderPose render = drawn_.of(index, scene().world().render_pose.elements()[index]);
         switch (viewpoint_) {
             case PlayerViewpoint::mirror:
                 return outside_.before(render);
@@ -201,11 +200,12 @@ class Loop {
         const std::int64_t begin_ns = clock_ns();
         history_.step(stage_.session, input_);
         clear_momentary_input(input_);
-        note_frame(us_since(begin_ns));
+        note_frame(us_since(begin_ns), DesktopSession::k_dt_s);
     }
 
-    void note_frame(double us) {
-        stage_.tally.add_frame(world(), stage_.session.player(), us, DesktopSession::k_dt_s);
+    // The world has advanced by `dt_s`, at `us` a frame.
+    void note_frame(double us, double dt_s) {
+        stage_.tally.add_frame(world(), stage_.session.player(), us, dt_s);
         if (stage_.status != nullptr && world().time_s() >= next_status_s_) {
             next_status_s_ = world().time_s() + k_status_s;
             const std::string line =
@@ -238,37 +238,51 @@ class Loop {
         }
     }
 
-    // The match says how many ticks are due, and steps them. Draws after them.
+    // The match says how many ticks are due, and steps them. Pictures have the display's rate.
     void advance_match() {
         constexpr double k_look_s = 0.002;
         const std::int64_t begin_ns = clock_ns();
         const std::uint32_t ticks =
             stage_.match->peer.poll(k_look_s, [this](double end_s, PeerInput& input) {
-                if (viewpoint_ == PlayerViewpoint::free) {
-                    free_.fly(input_, DesktopSession::k_dt_s);
-                    input_ = free_.held();
+                input.commands =
+                    stage_.session.advance_devices(played_input(), end_s, input.samples);
+                if (!flies()) {
+                    clear_momentary_input(input_);
                 }
-                input.commands = stage_.session.advance_devices(input_, end_s, input.samples);
-                clear_momentary_input(input_);
+                ticked_ns_ = clock_ns();
             });
-        if (stage_.match->peer.watches()) {
-            free_.fly(input_, ticks * DesktopSession::k_dt_s);
-            clear_momentary_input(input_);
-        }
         ends_ = ends_ || !stage_.match->goes_on();
         if (ticks > 0) {
-            note_frame(us_since(begin_ns) / ticks);
-            draw(ticks * DesktopSession::k_dt_s);
+            note_frame(us_since(begin_ns) / ticks, ticks * DesktopSession::k_dt_s);
         }
         match_s_ += ticks * DesktopSession::k_dt_s;
         ends_ = ends_ || (stage_.end_s > 0.0 && match_s_ >= stage_.end_s);
+        const double since_picture_s = 1e-6 * us_since(pictured_ns_);
+        if (stage_.match->peer.states() > 0 && since_picture_s >= stage_.window.picture_s()) {
+            pictured_ns_ = clock_ns();
+            draw_match(std::min(since_picture_s, k_longest_picture_s));
+        }
+    }
+
+    bool flies() const {
+        return viewpoint_ == PlayerViewpoint::free || stage_.match->peer.watches();
+    }
+    DesktopInput played_input() const { return flies() ? free_.held() : input_; }
+
+    void draw_match(double dt_s) {
+        std::optional<hh::Sample> newest;
+        if (flies()) {
+            free_.fly(input_, dt_s);
+            clear_momentary_input(input_);
+        } else {
+            newest = stage_.session.devices_in(input_, 1e-6 * us_since(ticked_ns_));
+        }
+        note_drawn(stage_.match->peer, scene(), newest ? &*newest : nullptr, drawn_);
+        stage_.view.show_drawn(&drawn_);
+        draw(dt_s);
     }
 
     void draw(double dt_s) {
-        if (stage_.match != nullptr) {
-            note_shown_offsets(stage_.match->peer, scene(), offsets_);
-            stage_.view.show_displaced(offsets_);
-        }
         ui_.wheel = std::exchange(wheel_, 0.0F);
         ui_.text = std::exchange(typed_, {});
         if (holds_mouse_) {
@@ -361,9 +375,11 @@ class Loop {
     FreeCamera free_;
     PlayerViewpoint viewpoint_;
     InspectorMemory inspector_;
-    std::optional<hh::Vec3> last_ws_;   // place of the play space in the last picture
-    std::vector<ShownOffset> offsets_;  // indexed by player; empty when playing alone
-    std::vector<Line> marks_;           // reused memory
+    std::optional<hh::Vec3> last_ws_;  // place of the play space in the last picture
+    DrawnMatch drawn_;                 // empty when playing alone
+    std::int64_t ticked_ns_ = 0;       // last tick of the match
+    std::int64_t pictured_ns_ = 0;     // last picture of the match
+    std::vector<Line> marks_;          // reused memory
     StepClock clock_{DesktopSession::k_dt_s};
     DesktopInput input_;
     DesktopInput held_;  // grips held at the last poll

@@ -267,6 +267,13 @@ WindowEvents Window::poll(const PlaySettings& settings) {
     return events;
 }
 
+double Window::picture_s() const {
+    constexpr int k_usual_hz = 60;
+    SDL_DisplayMode mode{};
+    const bool is_known = SDL_GetWindowDisplayMode(impl_->window, &mode) == 0;
+    return 1.0 / std::max(1, is_known && mode.refresh_rate > 0 ? mode.refresh_rate : k_usual_hz);
+}
+
 void Window::show(const Image& picture) {
     Impl& impl = *impl_;
     SDL_SetRenderDrawColor(impl.renderer, 0, 0, 0, 255);

@@ -59,6 +59,13 @@ hh_commands DesktopSession::advance_devices(const DesktopInput& input, double en
     return body_.commands(input);
 }
 
+hh::Sample DesktopSession::devices_in(const DesktopInput& input, double dt_s) {
+    constexpr double k_least_s = 1e-6;
+    DesktopBody body = body_;
+    const double step_s = std::clamp(dt_s, k_least_s, k_dt_s);
+    return body.advance(scene_.host, player_, input, scene_.host.time_s() + step_s, step_s);
+}
+
 // A state of a match may set the world's clock back, but a recording's times increase.
 void DesktopSession::record_sample(const hh::Sample& sample) {
     if (records_ && (recording_.samples.empty() || sample.time_s > recording_.samples.back().t_s)) {

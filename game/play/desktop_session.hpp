@@ -37,6 +37,8 @@ class DesktopSession {
     // commands. `step` does it by itself; for worlds that a match steps.
     hh_commands advance_devices(const DesktopInput& input, double end_s,
                                 std::vector<hh::Sample>& samples);
+    // What the devices say `dt_s` after the last frame, for a picture between two frames.
+    hh::Sample devices_in(const DesktopInput& input, double dt_s);
     // The desktop's player is this one from now on.
     void play_as(hh::Player player) { player_ = player; }
 

@@ -163,8 +163,7 @@ void PlayerView::add_player(std::size_t index, BodyFigures::Seen seen, RenderFra
     const World& world = scene_->world();
     const Entity player = world.render_pose.owners()[index];
     const RenderPose& stepped = world.render_pose.elements()[index];
-    const RenderPose render =
-        index < offsets_.size() ? displaced(stepped, offsets_[index]) : stepped;
+    const RenderPose render = drawn_ != nullptr ? drawn_->of(index, stepped) : stepped;
     const std::size_t first_own = frame.instances.size();
     if (scene_->arena) {
         const bool is_blue = team_of(index) == ArenaTeam::blue;
@@ -209,30 +208,13 @@ void PlayerView::add_player(std::size_t index, BodyFigures::Seen seen, RenderFra
     }
 }
 
-// The scene's instances come first, in the order of its visuals. A body that several hands hold
-// follows the first one.
-void PlayerView::displace_held_bodies(RenderFrame& frame) const {
-    const World& world = scene_->world();
-    for (std::size_t i = 0; i < scene_->visuals.size() && !offsets_.empty(); ++i) {
-        for (std::size_t hand = 0; hand < world.grab.size(); ++hand) {
-            const Grab& grab = world.grab.elements()[hand];
-            if (grab.kind != GripKind::held || grab.body != scene_->visuals[i].body) {
-                continue;
-            }
-            const HandOwner& owner = world.hand_owner.at(world.grab.owners()[hand]);
-            const std::size_t player = world.render_pose.find_index(owner.player);
-            if (player < offsets_.size()) {
-                frame.instances[i].pose_ws.position += offsets_[player].hands[index_of(owner.side)];
-            }
-            break;
-        }
-    }
-}
-
 RenderFrame PlayerView::make_frame(const Camera& camera, std::optional<std::size_t> without_head,
                                    std::span<const Line> marks) {
     RenderFrame frame = make_scene_frame(*scene_, visuals_);
-    displace_held_bodies(frame);
+    // The scene's instances come first, in the order of its visuals.
+    for (std::size_t i = 0; drawn_ != nullptr && i < drawn_->visuals_ws.size(); ++i) {
+        frame.instances[i].pose_ws = drawn_->visuals_ws[i];
+    }
     hands_.begin();
     body_.begin();
     const Column<RenderPose>& players = scene_->world().render_pose;

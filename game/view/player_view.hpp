@@ -8,8 +8,8 @@
 
 #include "game/render/renderer.hpp"
 #include "game/scene/scene.hpp"
+#include "game/view/drawn_match.hpp"
 #include "game/view/player_models.hpp"
-#include "game/view/shown_offset.hpp"
 
 namespace handhold {
 
@@ -40,11 +40,8 @@ class PlayerView {
     void show_controls(std::size_t index, const std::array<ControlValues, k_hand_count>& values) {
         controls_ = PlayerControls{index, values};
     }
-    // Draws players, and what their hands hold, displaced; indexed by player, and the rest of them
-    // are not.
-    void show_displaced(std::span<const ShownOffset> offsets) {
-        offsets_.assign(offsets.begin(), offsets.end());
-    }
+    // Draws players and bodies where `drawn` says, which must outlive the view; null: as stepped.
+    void show_drawn(const DrawnMatch* drawn) { drawn_ = drawn; }
     // Shows a sheet of panels in the world; nullopt: none.
     void show_sheet(const std::optional<Sheet>& sheet) { sheet_ = sheet; }
     // The OpenGL context. Valid as long as the view.
@@ -55,7 +52,6 @@ class PlayerView {
     PlayerView(const Scene& scene, PlayerModels models, Renderer renderer);
     RenderFrame make_frame(const Camera& camera, std::optional<std::size_t> without_head,
                            std::span<const Line> marks);
-    void displace_held_bodies(RenderFrame& frame) const;
     void add_player(std::size_t index, BodyFigures::Seen seen, RenderFrame& frame);
     void add_hand(HandSide side, const RenderPose::Hand& hand, const Quat& forearm_ws,
                   const ControlValues& controls, RenderFrame& frame);
@@ -84,7 +80,7 @@ class PlayerView {
     std::optional<ControllerFigures> controllers_;
     std::optional<PlayerControls> controls_;
     std::optional<Sheet> sheet_;
-    std::vector<ShownOffset> offsets_;
+    const DrawnMatch* drawn_ = nullptr;
     GhostSettings ghosts_;
     bool shows_hand_lines_ = true;
     float hidden_lines_ = RenderFrame{}.hidden_lines;

@@ -12,7 +12,7 @@
 #include "game/net/match_scene.hpp"
 #include "game/net/match_server.hpp"
 #include "game/net/peer_hands.hpp"
-#include "game/view/match_offsets.hpp"
+#include "game/view/drawn_match.hpp"
 #include "game/view/player_view.hpp"
 #include "tools/lab/exit_status.hpp"
 #include "tools/lab/measure.hpp"
@@ -35,7 +35,7 @@ struct FilmPeer {
     std::optional<RecordedHands> hands;
     std::unique_ptr<MatchPeer> peer;
     std::optional<PlayerView> view;
-    std::vector<ShownOffset> offsets;
+    DrawnMatch drawn_now;
     std::map<std::uint64_t, DrawnHands> drawn;  // hands of the player who is shown, by tick
 };
 
@@ -173,15 +173,13 @@ class MatchFilm {
             return std::nullopt;
         }
         const Scene& scene = now.scene.scene;
-        note_shown_offsets(*now.peer, scene, now.offsets);
-        if (!options_.hides_corrections) {
-            now.offsets.clear();
+        if (options_.hides_corrections) {
+            note_drawn(*now.peer, scene, nullptr, now.drawn_now);
+            now.view->show_drawn(&now.drawn_now);
         }
-        now.view->show_displaced(now.offsets);
         const Column<RenderPose>& poses = scene.world().render_pose;
         const std::size_t index = poses.find_index(entity_of(now.scene.players[k_shown_player]));
-        const ShownOffset offset = index < now.offsets.size() ? now.offsets[index] : ShownOffset{};
-        const RenderPose pose = displaced(poses.elements()[index], offset);
+        const RenderPose pose = now.drawn_now.of(index, poses.elements()[index]);
         now.drawn[tick] = {pose.hands[0].shown_ws.position, pose.hands[1].shown_ws.position};
         now.view->draw(camera_ws_, options_.fov_deg * k_degree, std::nullopt, picture_);
         std::array<char, 64> name{};

@@ -1,4 +1,4 @@
-#include "game/view/shown_offset.hpp"
+#include "game/view/drawn_place.hpp"
 
 namespace handhold {
 namespace {
@@ -15,11 +15,13 @@ void aim_bone(const Vec3& end_ws, Pose& bone_ws) {
 
 }  // namespace
 
-RenderPose displaced(const RenderPose& pose, const ShownOffset& by) {
+RenderPose drawn_at(const RenderPose& pose, const DrawnPlace& place) {
     RenderPose out = pose;
-    const auto move = [&by](Pose& part) { part.position += by.head; };
-    move(out.head_ws);
-    out.head_center_ws += by.head;
+    const Vec3 by = place.head_ws.position - pose.head_ws.position;
+    const auto move = [&by](Pose& part) { part.position += by; };
+    out.head_ws = place.head_ws;
+    out.head_center_ws =
+        transform_point(place.head_ws * inverse(pose.head_ws), pose.head_center_ws);
     move(out.arms.chest_ws);
     move(out.spine.chest_ws);
     move(out.spine.pelvis_ws);
@@ -33,16 +35,17 @@ RenderPose displaced(const RenderPose& pose, const ShownOffset& by) {
     }
     for (std::size_t side = 0; side < k_hand_count; ++side) {
         RenderPose::Hand& hand = out.hands[side];
-        const Vec3& hand_by = by.hands[side];
-        hand.tracked_ws.position += hand_by;
-        hand.shown_ws.position += hand_by;
-        hand.ray_from_ws += hand_by;
-        hand.ray_to_ws += hand_by;
+        const Pose moves = place.wrists_ws[side] * inverse(hand.shown_ws);
+        const Vec3 hand_by = place.wrists_ws[side].position - hand.shown_ws.position;
+        hand.tracked_ws = moves * hand.tracked_ws;
+        hand.shown_ws = place.wrists_ws[side];
+        hand.ray_from_ws = transform_point(moves, hand.ray_from_ws);
+        hand.ray_to_ws = transform_point(moves, hand.ray_to_ws);
         ArmPose::Arm& arm = out.arms.arms[side];
         move(arm.clavicle_ws);
         move(arm.upper_ws);
-        arm.forearm_ws.position += 0.5 * (by.head + hand_by);
-        arm.hand_ws.position += hand_by;
+        arm.forearm_ws.position += 0.5 * (by + hand_by);
+        arm.hand_ws = hand.shown_ws;
         aim_bone(arm.forearm_ws.position, arm.upper_ws);
         aim_bone(arm.hand_ws.position, arm.forearm_ws);
     }
