@@ -4,6 +4,6 @@ include(/usr/share/emscripten/cmake/Modules/Platform/Emscripten.cmake)
 set(CMAKE_CXX_FLAGS_INIT "-w -msimd128 -fwasm-exceptions -fno-slp-vectorize -include ${CMAKE_CURRENT_LIST_DIR}/web_shim.hpp")
 set(CMAKE_C_FLAGS_INIT "-w -msimd128")
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-fwasm-exceptions")
-# The module is downloaded. Emscripten adds -fno-inline-functions to -Os and -Oz, without which Eigen's small functions are calls (decision 154).
-set(CMAKE_CXX_FLAGS_RELEASE "-Os -finline-functions -DNDEBUG" CACHE STRING "")
-set(CMAKE_C_FLAGS_RELEASE "-Os -finline-functions -DNDEBUG" CACHE STRING "")
+# The module is downloaded. FORCE, so that older build folders get these flags too: emscripten adds -fno-inline-functions to -Os and -Oz, without which Eigen's small functions are calls (decision 154).
+set(CMAKE_CXX_FLAGS_RELEASE "-Os -finline-functions -DNDEBUG" CACHE STRING "" FORCE)
+set(CMAKE_C_FLAGS_RELEASE "-Os -finline-functions -DNDEBUG" CACHE STRING "" FORCE)
