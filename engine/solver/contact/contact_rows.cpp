@@ -13,6 +13,13 @@ Vec3 velocity_at(const SolverBody& body, const Vec3& point_bs) {
     return body.velocity_mps + body.spin_radps.cross(body.pose_ws.rotation * point_bs);
 }
 
+// At least the speed of one point against the other; cheap.
+double largest_approach_mps(const SolverBody& a, const SolverBody& b, const RowBlock& block) {
+    return (a.velocity_mps - b.velocity_mps).norm() +
+           a.spin_radps.norm() * block.point_a_bs.norm() +
+           b.spin_radps.norm() * block.point_b_bs.norm();
+}
+
 // True if the bodies approach each other fast and the contact's two points are offset along the
 // surface: a sweep found the contact where the bodies met, and they have moved on since. Other
 // contacts act at one common point, so that they cannot turn bodies that are squeezed.
@@ -21,6 +28,9 @@ bool is_impact(const ConstraintGraph& graph, const RowBlock& block) {
     constexpr double k_fast_mps = 1.0;
     const SolverBody& a = graph.bodies[block.a];
     const SolverBody& b = graph.bodies[block.b];
+    if (largest_approach_mps(a, b, block) < k_fast_mps) {
+        return false;
+    }
     const Vec3 normal = b.pose_ws.rotation * block.normal_b_bs;
     const double approach_mps =
         normal.dot(velocity_at(b, block.point_b_bs) - velocity_at(a, block.point_a_bs));
@@ -30,12 +40,16 @@ bool is_impact(const ConstraintGraph& graph, const RowBlock& block) {
     return approach_mps > k_fast_mps && slid_square > k_slid_m * k_slid_m;
 }
 
-RowBlock contact_block(const ContactPoint& contact, const ConstraintGraph& graph) {
-    const std::size_t a = find_body(graph, contact.id_a);
-    const std::size_t b = find_body(graph, contact.id_b);
-    HH_CHECK(a < graph.bodies.size(), "no body has this id", contact.id_a);
-    HH_CHECK(b < graph.bodies.size(), "no body has this id", contact.id_b);
-    RowBlock block;
+std::size_t body_with(std::uint64_t id, const ConstraintGraph& graph) {
+    const std::size_t body = find_body(graph, id);
+    HH_CHECK(body < graph.bodies.size(), "no body has this id", id);
+    return body;
+}
+
+// Writes into the graph's memory: a block is large.
+void append_contact_block(const ContactPoint& contact, std::size_t a, std::size_t b,
+                          ConstraintGraph& graph) {
+    RowBlock& block = graph.blocks.emplace_back();
     block.kind = RowKind::contact;
     block.a = static_cast<std::uint32_t>(a);
     block.b = static_cast<std::uint32_t>(b);
@@ -46,15 +60,22 @@ RowBlock contact_block(const ContactPoint& contact, const ConstraintGraph& graph
     block.is_impact = is_impact(graph, block);
     block.friction = std::sqrt(graph.bodies[a].friction * graph.bodies[b].friction);
     block.restitution = std::max(graph.bodies[a].restitution, graph.bodies[b].restitution);
-    return block;
 }
 
 }  // namespace
 
 void replace_contact_rows(std::span<const ContactPoint> contacts, ConstraintGraph& graph) {
     std::erase_if(graph.blocks, [](const RowBlock& block) { return is_contact(block); });
+    const ContactPoint* last = nullptr;  // points of one pair of bodies follow each other
+    std::size_t a = 0;
+    std::size_t b = 0;
     for (const ContactPoint& contact : contacts) {
-        graph.blocks.push_back(contact_block(contact, graph));
+        if (last == nullptr || contact.id_a != last->id_a || contact.id_b != last->id_b) {
+            a = body_with(contact.id_a, graph);
+            b = body_with(contact.id_b, graph);
+        }
+        last = &contact;
+        append_contact_block(contact, a, b, graph);
     }
     sort_blocks(graph);
     build_islands(graph);

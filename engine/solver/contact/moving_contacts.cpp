@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <tuple>
 
@@ -75,43 +76,49 @@ struct PointOffset {
     double normal_m = 0.0;   // component along the normal; negative: penetrating
     double tangent_m = 0.0;  // component across the normal
 };
-PointOffset offset_of(const ConstraintGraph& graph, const ContactPoint& contact) {
-    const auto pose_of = [&graph](std::uint64_t id) {
-        return collider_pose(graph.bodies[find_body(graph, id)]);
-    };
-    const Pose b = pose_of(contact.id_b);
-    const Vec3 offset = transform_point(pose_of(contact.id_a), contact.point_a_bs) -
-                        transform_point(b, contact.point_b_bs);
-    const Vec3 normal = b.rotation * contact.normal_b_bs;
-    const double normal_m = normal.dot(offset);
-    return {normal_m, (offset - normal * normal_m).norm()};
-}
 
-bool has_slid_apart(const ConstraintGraph& graph, const ContactPoint& contact) {
-    return offset_of(graph, contact).tangent_m > k_max_slide_m;
-}
+// The bodies of a contact, with their colliders' poses.
+struct PairPoses {
+    const SolverBody& a;
+    const SolverBody& b;
+    Pose a_ws = collider_pose(a);
+    Pose b_ws = collider_pose(b);
+
+    PairPoses(const ConstraintGraph& graph, const ContactPoint& contact)
+        : a(graph.bodies[find_body(graph, contact.id_a)]),
+          b(graph.bodies[find_body(graph, contact.id_b)]) {}
+
+    PointOffset offset_of(const ContactPoint& contact) const {
+        const Vec3 offset =
+            transform_point(a_ws, contact.point_a_bs) - transform_point(b_ws, contact.point_b_bs);
+        const Vec3 normal = b_ws.rotation * contact.normal_b_bs;
+        const double normal_m = normal.dot(offset);
+        return {normal_m, (offset - normal * normal_m).norm()};
+    }
+};
+
+bool has_slid_apart(const PointOffset& offset) { return offset.tangent_m > k_max_slide_m; }
 
 // True if the contact's separation is 0 after the solve (within k_touch_m): it limited the motion.
-bool limited_motion(const ConstraintGraph& graph, const ContactPoint& contact) {
-    return std::abs(offset_of(graph, contact).normal_m) < k_touch_m;
-}
+bool limited_motion(const PointOffset& offset) { return std::abs(offset.normal_m) < k_touch_m; }
 
 // True if the bodies approach each other at the contact, with their velocities before the frame's
 // impacts, and the solve has slid the contact's two points apart: a sweep found the contact where
 // the bodies met on their way.
-bool is_impact(const ConstraintGraph& graph, const ContactPoint& contact) {
+bool is_impact(const PairPoses& pair, const PointOffset& offset, const ContactPoint& contact) {
     constexpr double k_slid_m = 1e-3;
     constexpr double k_slow_mps = 0.05;
-    const SolverBody& a = graph.bodies[find_body(graph, contact.id_a)];
-    const SolverBody& b = graph.bodies[find_body(graph, contact.id_b)];
     const auto velocity_of = [](const SolverBody& body, const Vec3& point_bs) {
         const Vec3 arm = body.pose_ws.rotation * (point_bs + body.collider_offset_bs);
         return Vec3(body.velocity_mps + body.spin_radps.cross(arm));
     };
-    const Vec3 normal = collider_pose(b).rotation * contact.normal_b_bs;
+    if (offset.tangent_m <= k_slid_m) {
+        return false;
+    }
+    const Vec3 normal = pair.b_ws.rotation * contact.normal_b_bs;
     const Vec3 approach_mps =
-        velocity_of(b, contact.point_b_bs) - velocity_of(a, contact.point_a_bs);
-    return normal.dot(approach_mps) > k_slow_mps && offset_of(graph, contact).tangent_m > k_slid_m;
+        velocity_of(pair.b, contact.point_b_bs) - velocity_of(pair.a, contact.point_a_bs);
+    return normal.dot(approach_mps) > k_slow_mps;
 }
 
 bool any_touches(std::span<const ContactPoint> points) {
@@ -149,14 +156,12 @@ void merge_contacts(const MovingContacts& moving, OldPoints old_points) {
     std::size_t kept = 0;   // old contacts that stay, moved to the front of moving.contacts
     std::size_t first = 0;  // range of new contacts of the same pair as `old`
     std::size_t end = 0;
-    std::uint32_t feature = 0;  // highest feature id of the pair
-    std::uint64_t last_a = 0;   // ids of the last old contact
-    std::uint64_t last_b = 0;
+    std::uint32_t feature = 0;      // highest feature id of the pair
+    std::optional<PairPoses> pair;  // of the last old contact
     for (std::size_t i = 0; i < moving.contacts.size(); ++i) {
         ContactPoint old = moving.contacts[i];
-        if (last_a != old.id_a || last_b != old.id_b) {
-            last_a = old.id_a;
-            last_b = old.id_b;
+        if (!pair || pair->a.id != old.id_a || pair->b.id != old.id_b) {
+            pair.emplace(moving.graph, old);
             first = end;
             while (first < new_count && is_pair_before(fresh[first], old)) {
                 ++first;
@@ -171,14 +176,15 @@ void merge_contacts(const MovingContacts& moving, OldPoints old_points) {
             moving.contacts[kept++] = old;
             continue;
         }
-        const bool limited = !any_touches(found) && limited_motion(moving.graph, old);
-        const bool stays = old_points == OldPoints::kept && !has_slid_apart(moving.graph, old) &&
-                           !has_same_point(old, found);
+        const PointOffset offset = pair->offset_of(old);
+        const bool limited = !any_touches(found) && limited_motion(offset);
+        const bool stays =
+            old_points == OldPoints::kept && !has_slid_apart(offset) && !has_same_point(old, found);
         if (limited || stays) {
             old.feature = ++feature;
             moving.contacts[kept++] = old;
         } else if (moving.impacts != nullptr && !has_same_point(old, found) &&
-                   limited_motion(moving.graph, old) && is_impact(moving.graph, old)) {
+                   limited_motion(offset) && is_impact(*pair, offset, old)) {
             moving.impacts->push_back(old);
         }
     }
@@ -201,7 +207,8 @@ void restore_impacts(const MovingContacts& moving, std::span<const ContactPoint>
             }
         }
         impact.feature = feature;
-        impact.point_b_bs += offset_of(moving.graph, impact).normal_m * impact.normal_b_bs;
+        const PointOffset offset = PairPoses(moving.graph, impact).offset_of(impact);
+        impact.point_b_bs += offset.normal_m * impact.normal_b_bs;
         impact.separation_m = 0.0;
         moving.contacts.push_back(impact);
     }
