@@ -132,6 +132,32 @@ void name_other_clock(hh_world& host, double off_s) {
     log_note(text.data());
 }
 
+// Logs, once per world, that a device counts as not tracked because its pose is not valid.
+void name_invalid_pose(hh_world& host, const hh_tracking_sample& sample) {
+    struct Device {
+        const char* name;
+        const hh_pose& pose;
+        bool is_tracked;
+    };
+    const std::array<Device, 3> devices = {
+        {{"the head", sample.head, sample.head_tracked != 0},
+         {"the left hand", sample.hands[HH_LEFT], sample.hand_tracked[HH_LEFT] != 0},
+         {"the right hand", sample.hands[HH_RIGHT], sample.hand_tracked[HH_RIGHT] != 0}}};
+    const auto invalid = std::ranges::find_if(devices, [](const Device& device) {
+        return device.is_tracked && !is_valid(unchecked_pose(device.pose));
+    });
+    if (host.has_named_pose || invalid == devices.end()) {
+        return;
+    }
+    host.has_named_pose = true;
+    std::array<char, 160> text{};
+    std::snprintf(text.data(), text.size(),
+                  "%s of a tracking sample is ignored: a pose needs finite numbers and a rotation "
+                  "of length 1 (hh_identity_pose has one)",
+                  invalid->name);
+    log_note(text.data());
+}
+
 // Appends the samples given for a player, except those too far ahead. In a pause the world's clock
 // stands still, so samples of any time are appended.
 void read_given(hh_world& host, const hh_player_input& input, double end_s, StepKind kind) {
@@ -144,6 +170,7 @@ void read_given(hh_world& host, const hh_player_input& input, double end_s, Step
     for (std::size_t i = 0; i < input.sample_count; ++i) {
         const hh_tracking_sample sample = read_def_at(input.samples, i, defaults);
         last_s = sample.time_s;
+        name_invalid_pose(host, sample);
         if (has_range && sample.time_s > end_s + k_far_s) {
             ++host.samples_too_far_ahead;
             ++far;

@@ -124,6 +124,7 @@ struct hh_world {
     std::uint64_t samples_too_far_ahead = 0;  // number in this step, until finish_step counts them
     std::uint64_t samples_too_old = 0;
     bool has_named_clock = false;  // the log has been told of samples on another clock
+    bool has_named_pose = false;   // the log has been told of a tracked pose that is not valid
     std::vector<std::byte> snapshot;
     // Assets of the shapes as of `assets_revision`.
     std::optional<handhold::SnapshotAssets> assets;

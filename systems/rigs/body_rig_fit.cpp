@@ -305,7 +305,7 @@ class BodyFitter {
             }
         }
         rig_.carriers[BodyRig::k_head].rest_ms.position =
-            eyes > 0 ? Vec3(sum / eyes) : eyes_from_skin();
+            eyes > 0 ? Vec3(sum / eyes) : estimated_eyes();
     }
 
     // Sets the eye height: above the lowest vertex, or for figures without legs estimated from the
@@ -326,23 +326,31 @@ class BodyFitter {
         return above_pelvis > shortest_m_;
     }
 
-    // Returns the middle of the front of the head's skin.
-    Vec3 eyes_from_skin() const {
+    // Returns the middle of the front of the head's skin. Where no skin lies ahead of the head's
+    // joint, as in a skeleton that is given as an array: where a person's eyes are from the joint.
+    Vec3 estimated_eyes() const {
+        // Shares of the joint's height above the lowest vertex. Of a figure with eye joints,
+        // Rocketbox's first adult.
+        constexpr double k_up_share = 0.06;
+        constexpr double k_ahead_share = 0.055;
+        constexpr double k_least_ahead_share = 0.02;
+        double height_m = 0.0;
         Vec3 low = Vec3::Constant(1e30);
         Vec3 high = Vec3::Constant(-1e30);
         for (std::size_t i = 0; i < figure_.positions.size(); ++i) {
+            const Vec3 p =
+                stance_.axes_ms.conjugate() * (figure_.positions[i] - rig_.head_joint_ms);
+            height_m = std::max(height_m, -p.y());
             const std::uint16_t joint = heaviest_joint(figure_.weights[i]);
             if (rig_.joints[joint].carrier == BodyRig::k_head) {
-                const Vec3 p =
-                    stance_.axes_ms.conjugate() * (figure_.positions[i] - rig_.head_joint_ms);
                 low = low.cwiseMin(p);
                 high = high.cwiseMax(p);
             }
         }
-        if (low.x() > high.x()) {
-            return rig_.head_joint_ms;
-        }
-        const Vec3 eyes(0.5 * (low.x() + high.x()), 0.5 * (low.y() + high.y()), low.z());
+        const bool has_face = low.x() <= high.x() && -low.z() >= k_least_ahead_share * height_m;
+        const Vec3 eyes =
+            has_face ? Vec3(0.5 * (low.x() + high.x()), 0.5 * (low.y() + high.y()), low.z())
+                     : Vec3(0.0, k_up_share * height_m, -k_ahead_share * height_m);
         return rig_.head_joint_ms + stance_.axes_ms * eyes;
     }
 

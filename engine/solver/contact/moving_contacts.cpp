@@ -157,7 +157,7 @@ void merge_contacts(const MovingContacts& moving, OldPoints old_points) {
     std::size_t first = 0;  // range of new contacts of the same pair as `old`
     std::size_t end = 0;
     std::uint32_t feature = 0;      // highest feature id of the pair
-    std::optional<PairPoses> pair;  // of the last old contact
+    std::optional<PairPoses> pair;  // poses of the last old contact
     for (std::size_t i = 0; i < moving.contacts.size(); ++i) {
         ContactPoint old = moving.contacts[i];
         if (!pair || pair->a.id != old.id_a || pair->b.id != old.id_b) {

@@ -112,7 +112,8 @@ class JavaScript:
         return self.plain(kind) + ("[]" if more else "")
 
     def callback_type(self, one: dict) -> str:
-        words, result = [], "void"
+        words = []
+        result = "void" if one["returns"]["type"] == "void" else self.plain(self.kind(one["returns"]))
         for param in one["params"]:
             kind = self.plain(self.element(param["type"])) if param["role"] in ("value", "array", "out") else "string"
             if param["role"] == "out":

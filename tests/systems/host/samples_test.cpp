@@ -1,7 +1,10 @@
 // Samples stamped ahead of their steps, and by other clocks.
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -218,17 +221,34 @@ TEST(HostSamples, PausesFollowSamplesWhateverTheirTime) {
     EXPECT_EQ(count_of(scene.world, "sample_too_far_ahead"), 0U);
 }
 
+// The lines of the log while it lives.
+class HeardLog {
+  public:
+    HeardLog() {
+        said_.clear();
+        hh_host_hooks hooks = hh_default_host_hooks();
+        hooks.log = [](void* /*context*/, hh_log_level /*level*/, const char* text) {
+            said_.emplace_back(text);
+        };
+        EXPECT_EQ(hh_set_host_hooks(&hooks), HH_OK);
+    }
+    ~HeardLog() {
+        const hh_host_hooks hooks = hh_default_host_hooks();
+        EXPECT_EQ(hh_set_host_hooks(&hooks), HH_OK);
+    }
+    HeardLog(const HeardLog&) = delete;
+    HeardLog& operator=(const HeardLog&) = delete;
+    std::vector<std::string> take() { return std::exchange(said_, {}); }
+
+  private:
+    static inline std::vector<std::string> said_;
+};
+
 // Samples of a clock that is off by any amount above half a second: the counter and, once, the log.
 TEST(HostSamples, OtherClocksAreNamedOnceInTheLogAndCounted) {
-    static std::vector<std::string> said;
-    hh_host_hooks hooks = hh_default_host_hooks();
-    hooks.log = [](void* /*context*/, hh_log_level /*level*/, const char* text) {
-        said.emplace_back(text);
-    };
-    ASSERT_EQ(hh_set_host_hooks(&hooks), HH_OK);
+    HeardLog log;
     Random random(3);
     for (int i = 0; i < 20; ++i) {
-        said.clear();
         const double sign = i % 2 == 0 ? 1.0 : -1.0;
         const double off_s = sign * std::exp(random.between(-0.4, 21.0));
         HostScene scene;
@@ -243,11 +263,36 @@ TEST(HostSamples, OtherClocksAreNamedOnceInTheLogAndCounted) {
                       1U)
                 << off_s;
         }
+        const std::vector<std::string> said = log.take();
         ASSERT_EQ(said.size(), 1U) << off_s;
         EXPECT_NE(said[0].find("clock"), std::string::npos) << said[0];
     }
-    hooks = hh_default_host_hooks();
-    EXPECT_EQ(hh_set_host_hooks(&hooks), HH_OK);
+}
+
+// Tracked devices whose pose has no rotation or no finite place: counted, and named once in the
+// log.
+TEST(HostSamples, InvalidPosesAreNamedOnceInTheLogAndCounted) {
+    constexpr std::array k_names = {"the left hand", "the right hand", "the head"};
+    constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
+    HeardLog log;
+    for (std::size_t device = 0; device < k_names.size(); ++device) {
+        for (const bool is_tracked : {true, false}) {
+            HostScene scene;
+            for (int step = 1; step <= 30; ++step) {
+                hh::Sample sample = sample_at(step * test::k_step_s);
+                hh_pose& pose = device < 2 ? sample.hands[device] : sample.head;
+                (device < 2 ? sample.hand_tracked[device] : sample.head_tracked) =
+                    is_tracked ? 1 : 0;
+                pose.rotation = {step % 2 == 0 ? 0.0 : k_nan, 0.0, 0.0, 0.0};
+                ASSERT_TRUE(
+                    scene.world.step(test::k_step_s, hh::input(scene.player, {&sample, 1})));
+                EXPECT_EQ(count_of(scene.world, "sample_not_finite"), 1U);
+            }
+            const std::vector<std::string> said = log.take();
+            ASSERT_EQ(said.size(), is_tracked ? 1U : 0U);
+            EXPECT_TRUE(!is_tracked || said[0].starts_with(k_names[device])) << said[0];
+        }
+    }
 }
 
 }  // namespace

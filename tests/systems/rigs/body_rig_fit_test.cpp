@@ -115,6 +115,31 @@ TEST(FitBodyRig, EyesDefaultToTheFrontOfTheHead) {
     EXPECT_NEAR(eyes_ms.z(), -2.10, 1e-9);
 }
 
+// A skeleton without skin and eye joints: the eyes are where a person's are, at any size and turn.
+TEST(FitBodyRig, EyesWithoutSkinAreAboveAndAheadOfTheHeadsJoint) {
+    for (unsigned seed = 1; seed < 20; ++seed) {
+        const double scale = 0.3 + 0.2 * seed;
+        StickFigure sticks(scale, 0.7 * seed, seed);
+        for (const char* eye : {"LeftEye", "RightEye"}) {
+            const std::size_t i = sticks.joint(eye);
+            SkinJoint& joint = sticks.figure.joints[i];
+            joint.name = "a";
+            joint.bind_ms = sticks.figure.joints[sticks.joint("Head")].bind_ms;
+            sticks.figure.positions[i] = joint.bind_ms.position;
+        }
+        const Result<BodyRig> rig = fit_body_rig(sticks.figure);
+        ASSERT_TRUE(rig.ok()) << rig.error().message();
+        const BodyRig::Carrier& head = rig.value().carriers[BodyRig::k_head];
+        const Vec3 eyes = head.rest_ms.rotation.conjugate() *
+                          (head.rest_ms.position - rig.value().head_joint_ms) / scale;
+        EXPECT_NEAR(eyes.x(), 0.0, 1e-9);
+        EXPECT_GT(eyes.y(), 0.07);
+        EXPECT_LT(eyes.y(), 0.12);
+        EXPECT_GT(-eyes.z(), 0.06);
+        EXPECT_LT(-eyes.z(), 0.11);
+    }
+}
+
 TEST(FitBodyRig, ErrorNamesMissingBones) {
     StickFigure sticks;
     sticks.figure.joints[sticks.joint("LeftForeArm")].name = "a";

@@ -65,21 +65,24 @@ FAR = (np.array([(0.0, 100.0, 0.0), (0.0, 100.0, 1.0), (1.0, 100.0, 0.0)], dtype
 def read(grip: dict, gripped, side: str, hand) -> None:
     """Poses the hand on the object as the grip says, and keys its released and pressed poses."""
     frame = object_frame(gripped)
-    hands.clear_keys(hand)
 
-    def pose(shown: dict) -> None:
+    def joints_of(shown: dict) -> dict:
         with tempfile.TemporaryDirectory() as folder:
             file, out = Path(folder) / "object.glb", Path(folder) / "grip.glb"
             gltf.write_triangles(file, *FAR)
             commands.export_grip(shown, file, side, out)
-            hands.set_pose(hand, {name: frame @ node["pose"] for name, node in gltf.read_nodes(out).items() if name in hand.data.bones})
+            return {name: frame @ node["pose"] for name, node in gltf.read_nodes(out).items() if name in hand.data.bones}
 
     pressed, moving = pressed_grip(grip, side)
+    poses = {hands.RELEASED: joints_of(grip)}  # what is refused is refused before a key is lost
     if moving:
-        pose(pressed)
+        poses[hands.PRESSED] = joints_of(pressed)
+    hands.clear_keys(hand)
+    if moving:
+        hands.set_pose(hand, poses[hands.PRESSED])
         for finger in moving:
             hands.key(hand, hands.PRESSED, finger)
-    pose(grip)
+    hands.set_pose(hand, poses[hands.RELEASED])
     hands.key(hand, hands.RELEASED)
     bpy.context.scene.frame_set(hands.RELEASED)
 

@@ -89,9 +89,11 @@ class Operator(bpy.types.Operator):
         hand = active_hand(context)
         try:
             if self.needs_hand and hand is None:
-                raise ValueError("choose a hand: its armature")
+                raise ValueError("choose a hand: its armature. Add Hand makes one")
             if self.needs_object and settings.gripped is None:
                 raise ValueError("choose the object that is gripped")
+            if self.needs_object and hands.is_hand(settings.gripped):
+                raise ValueError("the object that is gripped is a hand: choose another")
             add_binding_to_path()
             said = self.work(context, settings, hand)
         except ImportError as error:
@@ -188,11 +190,25 @@ class WriteGrip(Operator):
     bl_idname, bl_label = "handhold.write_grip", "Write Grip"
 
     def work(self, context, settings, hand):
+        if not settings.name:
+            raise ValueError("the grip needs a name")
         others = [one for one in hands.hands() if one[hands.SIDE] != hand[hands.SIDE]]
         grip = grips.write([hand, *others[:1]], settings.gripped, settings)
         file = Path(bpy.path.abspath(settings.file))
         file.write_text(json.dumps(grip, indent=1) + "\n", encoding="utf-8")
         return f"{file.name}: {grips.remarks(grip, settings.gripped, hand[hands.SIDE]) or 'every finger is shown as posed'}"
+
+
+def read_file(file: Path) -> dict:
+    """A grip as Write Grip writes it. Says what the file lacks."""
+    try:
+        grip = json.loads(file.read_text(encoding="utf-8"))
+    except ValueError as error:
+        raise ValueError(f"{file.name}: expected JSON: {error}") from error
+    sides = [side for side in fitting.SIDES if isinstance(grip, dict) and isinstance(grip.get(side), dict)]
+    if not sides or not isinstance(grip.get("name"), str) or (len(sides) == 1 and any(side in grip and side not in sides for side in fitting.SIDES)):
+        raise ValueError(f"{file.name}: expected a grip: an object with \"name\" and \"left\" or \"right\"")
+    return grip
 
 
 class ReadGrip(Operator):
@@ -201,7 +217,7 @@ class ReadGrip(Operator):
     needs_hand = False
 
     def work(self, context, settings, _hand):
-        grip = json.loads(Path(bpy.path.abspath(settings.file)).read_text(encoding="utf-8"))
+        grip = read_file(Path(bpy.path.abspath(settings.file)))
         said = []
         for side in fitting.SIDES:
             if side not in grip and "mirror" not in grip:

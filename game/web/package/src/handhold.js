@@ -2,7 +2,7 @@
 // its structs; vectors are {x, y, z}, rotations {x, y, z, w}, so three.js objects can be passed.
 import { addCalls } from './invoke.js';
 import { Memory } from './memory.js';
-import { HH_ERROR_STATE } from './structs.js';
+import { HH_ERROR_HANDLE, HH_ERROR_STATE } from './structs.js';
 
 export * from './structs.js';
 
@@ -93,6 +93,8 @@ addCalls(LibraryCalls, '');
 
 /** The library. */
 export class Handhold extends LibraryCalls {
+    #meshes = new Set();
+
     constructor(exports) {
         super();
         this.exports = exports;
@@ -109,11 +111,23 @@ export class Handhold extends LibraryCalls {
     }
     /** A mesh for World.addMeshShape. `positions`: x, y, z of each vertex; `indices`: three a triangle. */
     createMesh(definition) {
-        return this.#create('hh_mesh', definition);
+        const mesh = this.#create('hh_mesh', definition);
+        this.#meshes.add(mesh);
+        return mesh;
     }
+    /** A second call does nothing. */
     destroyMesh(mesh) {
         this.refuseInCallback('a mesh');
-        this.exports.hh_mesh_destroy(mesh);
+        if (this.#meshes.delete(mesh)) {
+            this.exports.hh_mesh_destroy(mesh);
+        }
+    }
+    /** The mesh, or 0 for none. Throws for what createMesh did not return, and for a destroyed mesh. */
+    liveMesh(mesh) {
+        if (mesh !== 0 && !this.#meshes.has(mesh)) {
+            throw new HandholdError(HH_ERROR_HANDLE, 'HH_ERROR_HANDLE: no mesh of createMesh, or a destroyed one');
+        }
+        return mesh;
     }
     #create(kind, definition) {
         return this.scratch((m) => {

@@ -24,6 +24,13 @@ export function addCalls(type, handle) {
     };
 }
 
+function numberOf(label, value) {
+    if (typeof value !== 'number' && typeof value !== 'boolean') {
+        throw new TypeError(`${label}: a number is needed, not ${value}`);
+    }
+    return Number(value);
+}
+
 const isStruct = (kind) => structs[kind] !== undefined;
 
 function invoke(object, name, { returns, params }, given) {
@@ -42,13 +49,16 @@ function invoke(object, name, { returns, params }, given) {
                 self: () => object.handle,
                 value: () => {
                     const value = next();
-                    return isStruct(kind) ? m.takeOne(kind, value ?? {}) : kind === 'u64' ? BigInt(value) : Number(value ?? 0);
+                    return isStruct(kind) ? m.takeOne(kind, value) : kind === 'u64' ? BigInt(value) : numberOf(label, value);
                 },
-                handle: () => next() ?? 0,
+                handle: () => library.liveMesh(next() ?? 0),
                 text: () => textOrNull(m, next()),
                 bytes: () => bytesOrNull(m, next(), (size) => { counted = size; }),
                 array: () => {
                     const values = next() ?? [];
+                    if (typeof values.length !== 'number' || typeof values === 'string') {
+                        throw new TypeError(`${label}: a list is needed`);
+                    }
                     if (source !== undefined && values.length !== source) {
                         throw new TypeError(`${label}: ${source} elements are needed, ${values.length} are given`);
                     }
@@ -151,6 +161,9 @@ function textOrNull(m, text) {
 }
 function bytesOrNull(m, bytes, count) {
     const made = typeof bytes === 'string' ? new TextEncoder().encode(bytes) : bytes;
+    if (made !== null && made !== undefined && typeof made.byteLength !== 'number') {
+        throw new TypeError('a Uint8Array is needed');
+    }
     count(made?.byteLength ?? 0);
     return made === null || made === undefined ? 0 : m.takeBytes(made);
 }

@@ -154,6 +154,9 @@ export class Memory {
     /** Writes the fields that the object has. Throws a TypeError for one that the struct lacks. */
     write(kind, at, value) {
         if (scalars[kind] !== undefined) {
+            if (kind !== 'u64' && kind !== 'bool' && typeof value !== 'number' && typeof value !== 'boolean') {
+                throw new TypeError(`a number is needed, not ${value}`);
+            }
             scalars[kind].set(this.view, at, value);
             return;
         }
@@ -162,8 +165,16 @@ export class Memory {
             return;
         }
         const { fields } = layoutOf(kind);
+        if (value === null || typeof value !== 'object') {
+            throw new TypeError(`${kind}: an object is needed, not ${value}`);
+        }
         // Vectors and rotations may be objects with more: those of three.js, for instance.
-        if (kind !== 'hh_vec3' && kind !== 'hh_quat') {
+        if (kind === 'hh_vec3' || kind === 'hh_quat') {
+            const missing = fields.find(({ name }) => typeof value[name] !== 'number');
+            if (missing !== undefined) {
+                throw new TypeError(`${kind}: "${missing.name}" must be a number, not ${value[missing.name]}`);
+            }
+        } else {
             for (const name of Object.keys(value)) {
                 if (!fields.some((field) => field.name === name)) {
                     throw new TypeError(`${kind} has no field "${name}"`);
@@ -176,6 +187,9 @@ export class Memory {
                 continue;
             }
             if (type === 'list') {
+                if (given !== null && typeof given.length !== 'number') {
+                    throw new TypeError(`${kind}.${name}: a list is needed`);
+                }
                 const size = given?.length ?? 0;
                 if (size % more.each !== 0) {
                     throw new TypeError(`${name}: ${size} numbers are not a multiple of ${more.each}`);
@@ -187,15 +201,20 @@ export class Memory {
             } else if (count === undefined) {
                 this.write(type, at + offset, given);
             } else {
-                given.slice(0, count).forEach((one, i) => this.write(type, at + offset + i * step, one));
+                if (given?.length !== count) {
+                    throw new TypeError(`${kind}.${name}: a list of ${count} is needed`);
+                }
+                Array.from(given).forEach((one, i) => this.write(type, at + offset + i * step, one));
             }
         }
     }
     /** One struct or number until release(): the library's defaults, or else zero and no rotation, and what `given` says. */
-    takeOne(kind, given = {}) {
+    takeOne(kind, given) {
         const at = this.take(layoutOf(kind).size);
         this.fill(kind, at);
-        this.write(kind, at, given);
+        if (given !== undefined) {
+            this.write(kind, at, given);
+        }
         return at;
     }
     takeList(kind, values) {

@@ -14,8 +14,15 @@ namespace Handhold {
         private Shape shape;
 
         private void OnEnable() {
+            if (world == null) {
+                throw new InvalidOperationException(name + ": set HandholdBody.world before the component is enabled");
+            }
             if (shape.IsNull) {
-                shape = MakeShape();
+                try {
+                    shape = MakeShape();
+                } catch (HandholdException error) {
+                    throw new HandholdException(error.Result, name + ": " + error.Message);
+                }
             }
             BodyDef def = BodyDef.Default();
             def.kind = kind;

@@ -1,3 +1,4 @@
+using System;
 using UnityEngine;
 
 namespace Handhold {
@@ -23,6 +24,9 @@ namespace Handhold {
         public Player Id { get; private set; }
 
         private void OnEnable() {
+            if (world == null || rig == null || head == null || controllers.Length != 2 || controllers[0] == null || controllers[1] == null) {
+                throw new InvalidOperationException(name + ": set world, rig, head and both controllers of HandholdPlayer before the component is enabled");
+            }
             PlayerDef def = PlayerDef.Default();
             def.origin = UnityConvert.FromUnity(rig.position, rig.rotation);
             Id = world.World.PlayerAdd(def, null);

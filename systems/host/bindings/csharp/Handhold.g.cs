@@ -2989,7 +2989,7 @@ namespace Handhold {
             }
         }
 
-        /// <summary>hh_player_set_body_rig for a skeleton as an array, of an engine that has no glTF file: 1 to 1024 joints, in any order. In other axes: handhold/convert.h. No joints: none. HH_ERROR_VALUE for parents that do not exist or form a ring; HH_ERROR_DATA says by name or index which joints are missing or implausible.</summary>
+        /// <summary>hh_player_set_body_rig for a skeleton as an array, of an engine that has no glTF file: 1 to 1024 joints, in any order. In other axes: handhold/convert.h. No joints: none. The tracked head lies between the eyes: at joints below the head whose names end in "eye", "eye_l" or "eye_r", else estimated from the head's joint and its children. HH_ERROR_VALUE for parents that do not exist or form a ring; HH_ERROR_DATA says by name or index which joints are missing or implausible.</summary>
         public unsafe void PlayerSetBodySkeleton(Player player, SkeletonJoint[] joints, HhSpace space, string[] names = null) {
             SkeletonJoint[] joints_given = Library.Copy(joints);
             byte[] names_bytes = Library.Texts(names, joints, "names");

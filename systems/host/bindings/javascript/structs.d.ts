@@ -772,7 +772,7 @@ export interface hh_match_game {
     /** Sets your state to the copy in that place. */
     restore: ((place: number) => void) | null;
     /** Hash of your state: machines compare it together with the world's. */
-    hash: (() => void) | null;
+    hash: (() => bigint) | null;
 }
 
 /** A player's input for one tick. Fill by hh_default_match_input. */
@@ -1060,7 +1060,7 @@ export declare class WorldCalls {
     playerSetHandRig(player: Given<hh_player>, side: number, gltf: Uint8Array | string | null): void;
     /** The player's body drives a humanoid skeleton from a glTF file; the table of a VRM file says which joint is which. Null bytes: none. */
     playerSetBodyRig(player: Given<hh_player>, gltf: Uint8Array | string | null): void;
-    /** hh_player_set_body_rig for a skeleton as an array, of an engine that has no glTF file: 1 to 1024 joints, in any order. In other axes: handhold/convert.h. No joints: none. HH_ERROR_VALUE for parents that do not exist or form a ring; HH_ERROR_DATA says by name or index which joints are missing or implausible. */
+    /** hh_player_set_body_rig for a skeleton as an array, of an engine that has no glTF file: 1 to 1024 joints, in any order. In other axes: handhold/convert.h. No joints: none. The tracked head lies between the eyes: at joints below the head whose names end in "eye", "eye_l" or "eye_r", else estimated from the head's joint and its children. HH_ERROR_VALUE for parents that do not exist or form a ring; HH_ERROR_DATA says by name or index which joints are missing or implausible. */
     playerSetBodySkeleton(player: Given<hh_player>, joints: Given<hh_skeleton_joint>[], space: number): void;
     /** Joints of the player's body rig, in the order in which they were given. Fingers follow the shown hand's; a figure with both hands' fingers needs no second pair of hands (hh_player_skeleton_fingers). HH_ERROR_STATE without a rig. */
     playerSkeleton(player: Given<hh_player>, space: number): hh_pose[];

@@ -125,7 +125,9 @@ typedef struct hh_skeleton_joint {
     hh_pose bind;
 } hh_skeleton_joint;
 /* hh_player_set_body_rig for a skeleton as an array, of an engine that has no glTF file: 1 to 1024
- * joints, in any order. In other axes: handhold/convert.h. No joints: none. HH_ERROR_VALUE for
+ * joints, in any order. In other axes: handhold/convert.h. No joints: none. The tracked head lies
+ * between the eyes: at joints below the head whose names end in "eye", "eye_l" or "eye_r", else
+ * estimated from the head's joint and its children. HH_ERROR_VALUE for
  * parents that do not exist or form a ring; HH_ERROR_DATA says by name or index which joints are
  * missing or implausible. */
 HH_API hh_result hh_player_set_body_skeleton(hh_world* world, hh_player player,

@@ -23,6 +23,11 @@ class Mesh:
         refuse_in_callback("a mesh cannot be closed")
         self.__del__()
 
+    def __copy__(self, *_):
+        raise TypeError("a mesh cannot be copied")
+
+    __deepcopy__ = __copy__
+
     def __del__(self):
         if getattr(self, "_handle", None):
             lib().hh_mesh_destroy(self._handle)
@@ -62,6 +67,11 @@ class World(WorldCalls):
 
     def __exit__(self, *error):
         self.close()
+
+    def __copy__(self, *_):
+        raise TypeError("a world cannot be copied: save() and restore() copy its state")
+
+    __deepcopy__ = __copy__
 
     def __del__(self):
         if getattr(self, "_handle", None):

@@ -2201,9 +2201,10 @@ class WorldCalls:
 
     def player_set_body_skeleton(self, player, joints, space):
         """hh_player_set_body_rig for a skeleton as an array, of an engine that has no glTF file: 1 to 1024
-        joints, in any order. In other axes: handhold/convert.h. No joints: none. HH_ERROR_VALUE for parents
-        that do not exist or form a ring; HH_ERROR_DATA says by name or index which joints are missing or
-        implausible."""
+        joints, in any order. In other axes: handhold/convert.h. No joints: none. The tracked head lies
+        between the eyes: at joints below the head whose names end in "eye", "eye_l" or "eye_r", else
+        estimated from the head's joint and its children. HH_ERROR_VALUE for parents that do not exist or form
+        a ring; HH_ERROR_DATA says by name or index which joints are missing or implausible."""
         joints, count_ = array(SkeletonJoint, joints)
         check(lib().hh_player_set_body_skeleton(self._handle, value(Player, player), joints, count_, space))
 

@@ -124,6 +124,8 @@ class Struct(ctypes.Structure):
         elif isinstance(kind, type) and issubclass(kind, Struct):
             given = value(kind, given)
         elif isinstance(kind, type) and issubclass(kind, ctypes.Array):
+            if len(given) != kind._length_:
+                raise TypeError(f"{name}: {kind._length_} elements are needed, {len(given)} are given")
             given = kind(*[value(kind._type_, one) for one in given])
         elif isinstance(kind, type) and issubclass(kind, ctypes._CFuncPtr):
             given = given if isinstance(given, kind) else kind() if given is None else kind(guarded(given))
@@ -158,7 +160,12 @@ def value(kind, given):
         return kind(**given)
     if isinstance(given, Struct):
         raise TypeError(f"{type(given).__name__} where {kind.__name__} is needed")
-    return kind(*given)
+    if isinstance(given, str) or not hasattr(given, "__iter__"):
+        raise TypeError(f"{kind.__name__} or a sequence of its fields is needed, not {given!r}")
+    words = tuple(given)
+    if len(words) < len(kind._fields_) and all(one is ctypes.c_double for _, one in kind._fields_):
+        raise TypeError(f"{kind.__name__} has {len(kind._fields_)} numbers, {len(words)} are given")
+    return kind(*words)
 
 
 def optional(kind, given, fields=None):
@@ -206,6 +213,8 @@ def array(kind, given):
                 raise TypeError(f"an array of {kind.__name__} is needed, or rows of its numbers; not {given.dtype} of shape {given.shape}")
             made, count = np.ascontiguousarray(given, dtype=number), given.shape[0]
         else:
+            if given.dtype.kind == "f" and wanted.kind in "iu":
+                raise TypeError(f"whole numbers are needed, not {given.dtype}")
             made = np.ascontiguousarray(given, dtype=wanted)
             count = made.size
         pointer = made.ctypes.data_as(ctypes.POINTER(kind))
