@@ -164,6 +164,24 @@ class Binding(unittest.TestCase):
             with mock.patch.object(hh._generated, "HANDHOLD_VERSION_MINOR", minor), self.assertRaises(ImportError):
                 hh.load(os.environ["HANDHOLD_LIBRARY"])
 
+    def test_arguments_of_another_shape_are_refused(self):
+        for given in ((1.0, 1.0), 5, "box"):
+            with self.assertRaises(TypeError):
+                self.world.shape_add_box(given)
+        player = self.world.player_add()
+        for count in (1, 3):
+            with self.assertRaises(TypeError):
+                hh.TrackingSample(hands=[hh.Pose()] * count)
+        with self.assertRaises(TypeError):
+            self.world.player_set_measures([player])
+
+    def test_worlds_are_not_copied(self):
+        import copy
+        for copied in (copy.copy, copy.deepcopy):
+            with self.assertRaises(TypeError):
+                copied(self.world)
+        self.world.step(1 / 90, [])
+
     def test_rows_are_structs_of_one_type_of_number_only(self):
         body = self.world.body_add()
         self.world.body_poses(np.array([[body.index, body.generation]], dtype=np.uint32))

@@ -232,6 +232,22 @@ class Authoring(unittest.TestCase):
             for name, angles in posed.items():
                 np.testing.assert_allclose(twice["right"]["fingers"][finger][name], angles, atol=1e-3, err_msg=f"{finger} {name}")
 
+    def test_refused_grips_keep_the_keys(self) -> None:
+        hand, gripped = self.gripping_hand()
+        bpy.ops.handhold.key_pose()
+        settings().name = "crank"
+        self.assertEqual(bpy.ops.handhold.write_grip(), {"FINISHED"})
+        written = json.loads((WORK / "grip.json").read_text())
+        curves = len(hand.animation_data.action.fcurves)
+        self.assertGreater(curves, 20)
+        bent = json.loads(json.dumps(written))
+        next(iter(bent["right"]["fingers"].values()))["curl_deg"] = "much"
+        for text in ("[]", "{", json.dumps({"name": "x"}), json.dumps({"right": written["right"]}), json.dumps({**written, "right": 3}), json.dumps(bent)):
+            (WORK / "grip.json").write_text(text)
+            with self.assertRaises(RuntimeError, msg=text):
+                bpy.ops.handhold.read_grip()
+            self.assertEqual(len(hand.animation_data.action.fcurves), curves, text)
+
     def test_trigger_is_previewed_by_finger_and_controller(self) -> None:
         hand, _ = self.gripping_hand()
         settings().finger = "index"

@@ -260,6 +260,44 @@ test('what the library refuses is thrown, with its result and text', () => {
     world.destroy();
 });
 
+test('arguments of another type are refused before the library sees them', () => {
+    const { world, player } = makeWall();
+    const before = world.hash();
+    const [sample] = [sampleAt(1)];
+    const wrong = {
+        'a side in words': () => world.handJoints(player, 'right', HH_SPACE_WORLD),
+        'a kind in words': () => world.addBody({ kind: 'dynamic' }),
+        'a number as a shape': () => world.addBody({ shape: 3 }),
+        'an input that is no list': () => world.step(1 / 90, { player }),
+        'samples that are no list': () => world.step(1 / 90, [{ player, samples: sample }]),
+        'three hands': () => world.step(1 / 90, [{ player, samples: [{ ...sample, hands: [...sample.hands, sample.hands[0]] }] }]),
+        'one hand': () => world.step(1 / 90, [{ player, samples: [{ ...sample, hands: [sample.hands[0]] }] }]),
+        'hands by name': () => world.step(1 / 90, [{ player, samples: [{ ...sample, hands: { left: {}, right: {} } }] }]),
+        'a vector as a list': () => world.addBox([1, 1, 1]),
+        'a snapshot of numbers': () => world.restore([1, 2, 3]),
+    };
+    for (const [name, call] of Object.entries(wrong)) {
+        assert.throws(call, TypeError, name);
+    }
+    assert.equal(world.hash(), before);
+    world.destroy();
+});
+
+test('a mesh is freed once, and no other number is a mesh', () => {
+    const { world } = makeWall();
+    const triangle = { positions: [0, 0, 0, 1, 0, 0, 0, 1, 0], indices: [0, 1, 2] };
+    const mesh = handhold.createMesh(triangle);
+    handhold.destroyMesh(mesh);
+    handhold.destroyMesh(mesh);
+    const others = Array.from({ length: 20 }, () => handhold.createMesh(triangle));
+    for (const dead of [mesh, 12345].filter((one) => !others.includes(one))) {
+        assert.throws(() => world.addMeshShape(dead, { x: 1, y: 1, z: 1 }), (error) => error.result === HH_ERROR_HANDLE);
+    }
+    others.forEach((one) => assert.ok(world.addMeshShape(one, { x: 1, y: 1, z: 1 })));
+    others.forEach((one) => handhold.destroyMesh(one));
+    world.destroy();
+});
+
 test('lists, names and joints come back as they were given', () => {
     const world = handhold.createWorld({ gravity_mps2: { x: 0, y: -9.81, z: 0 } });
     const shape = world.addCapsule(0.1, 0.5);
