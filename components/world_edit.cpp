@@ -243,7 +243,12 @@ void teleport_player(World& world, Entity player, const Pose& origin_ws) {
 
 Entity hand_of(const World& world, Entity player, HandSide side) {
     HH_CHECK(world.player.contains(player), "no player with this handle", player.slot);
-    for (std::size_t index = 0; index < world.hand_owner.size(); ++index) {
+    // Players and their pairs of hands have the same order unless some were removed, so the search
+    // begins there: hosts ask for each hand of each player in every frame.
+    const std::size_t hands = world.hand_owner.size();
+    const std::size_t begin = 2 * world.player.find_index(player);
+    for (std::size_t i = 0; i < hands; ++i) {
+        const std::size_t index = (begin + i) % hands;
         const HandOwner& owner = world.hand_owner.elements()[index];
         if (owner.player == player && owner.side == side) {
             return world.hand_owner.owners()[index];

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "components/world.hpp"
+#include "components/world_edit.hpp"
 #include "tests/components/shapeless.hpp"
 #include "tests/random.hpp"
 
@@ -73,6 +74,30 @@ TEST(WorldIndex, NamesAndJointsAreRightAfterAnyHistory) {
     }
     EXPECT_TRUE(world.joint.empty());
     check();
+}
+
+TEST(WorldIndex, HandsAreFoundAfterAnyHistory) {
+    Random random(7);
+    World world;
+    std::vector<PlayerEntities> players;
+    for (int step = 0; step < 400; ++step) {
+        if (players.size() < 2 || random.between(0.0, 1.0) < 0.55) {
+            PlayerDescription description;
+            const std::string name = "p" + std::to_string(step);
+            description.name = name;
+            players.push_back(add_player(world, description));
+        } else {
+            const auto gone = players.begin() + static_cast<std::ptrdiff_t>(random.between(
+                                                    0.0, static_cast<double>(players.size())));
+            EXPECT_TRUE(destroy(world, gone->player));
+            players.erase(gone);
+        }
+        for (const PlayerEntities& one : players) {
+            for (const HandSide side : {HandSide::left, HandSide::right}) {
+                ASSERT_EQ(hand_of(world, one.player, side), one.hands[index_of(side)]);
+            }
+        }
+    }
 }
 
 }  // namespace
