@@ -31,8 +31,8 @@ struct GripSurface {
     Vec3 point_bs = Vec3::Zero();     // point on the contact mesh under the palm
     // Mean surface normal around the point; unit, towards the back of the hand.
     Vec3 normal_bs = Vec3::UnitY();
-    // Tracked wrist and HandSurroundings::signature of the last search. The next one is due when
-    // the hand has travelled by k_search_again_m from there, or the signature has changed.
+    // Tracked wrist and HandSurroundings::search_signature of the last search. The next one is due
+    // when the hand has travelled by k_search_again_m from there, or the signature has changed.
     Pose wrist_bs;
     std::uint64_t surroundings_signature = 0;
     // The palm within its limits here; without a surface, outside of solids. Not set in an authored

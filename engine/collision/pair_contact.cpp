@@ -168,8 +168,9 @@ void add_contacts_at(const PairIo& io, const Pose& pose_ns, const Pose& from_ns)
 
 // After the touch, a may continue to rotate, as a rolling ball does, so that points that did not
 // touch become the deepest. For each contact plane found at `touch_ns`, adds a's deepest point at
-// `to_ns`, unless it is beyond b: the plane ends there, and a wall that a small rotating b touches
-// would seem to reach far behind it.
+// `to_ns`. The point may be beside b, where only the plane is: as b lies behind the plane, the
+// depth is then at least that of the overlap. Points farther away than k_max_overhang_ratio allows
+// are left out, because a wall that a small rotating b touches would seem to reach far behind it.
 void add_deepest_at_end(const PairIo& io, const Pose& touch_ns, const Pose& to_ns) {
     std::vector<NearContact>& contacts = io.scratch.contacts;
     const auto depth_at_end = [&](const NearContact& contact) {
@@ -178,6 +179,8 @@ void add_deepest_at_end(const PairIo& io, const Pose& touch_ns, const Pose& to_n
     };
     constexpr double k_deeper_m = 1e-6;
     constexpr double k_same_normal = 0.9999;
+    // Relative to b's radius. Points of an a that is no larger than b are within it.
+    constexpr double k_max_overhang_ratio = 3.0;
     const std::size_t met = contacts.size();
     for (std::size_t i = 0; i < met; ++i) {
         const NearContact plane = contacts[i];
@@ -189,7 +192,8 @@ void add_deepest_at_end(const PairIo& io, const Pose& touch_ns, const Pose& to_n
                    depth_at_end(other) < separation_m + k_deeper_m;
         });
         const Vec3 point_b_bs = deepest - separation_m * plane.normal_ns + io.to_bs.position;
-        const bool is_beyond = !io.b.empty() && point_b_bs.norm() > reach_m(io.b);
+        const bool is_beyond =
+            !io.b.empty() && point_b_bs.norm() > k_max_overhang_ratio * reach_m(io.b);
         if (!is_known && !is_beyond) {
             const Vec3 at_touch =
                 transform_point(touch_ns, inverse_transform_point(to_ns, deepest));

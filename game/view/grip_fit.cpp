@@ -35,6 +35,7 @@ FittedGrip fit_grip(const GripMesh& mesh, const HandRig& rig, const Pose& wrist_
                                                   .wrist_bs = wrist_bs,
                                                   .meshes = {{&mesh, {}}},
                                                   .signature = 1,
+                                                  .search_signature = 1,
                                                   .is_gripping = true,
                                                   .authored = authored}};
     GripSearchScratch search;

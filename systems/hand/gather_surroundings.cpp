@@ -9,6 +9,43 @@
 namespace handhold {
 namespace {
 
+// Hashes of the bodies near a hand and of their poses relative to the gripped one.
+class Signatures {
+  public:
+    void add(std::uint64_t value) {
+        fine_.add(value);
+        coarse_.add(value);
+    }
+    // Rounded to 0.1 mm and axes to 1e-4, so that tiny numerical differences rarely change the fine
+    // hash.
+    void add(const Pose& pose) {
+        constexpr double k_fine_step = 1e-4;
+        add(pose, k_fine_step, k_fine_step, fine_);
+        add(pose, k_search_step_m, k_search_step_rad, coarse_);
+    }
+    // Never 0, which means that there is no body.
+    std::uint64_t fine() const { return fine_.value() | 1U; }
+    std::uint64_t coarse() const { return coarse_.value() | 1U; }
+
+  private:
+    static void add(const Pose& pose, double step_m, double axis_step, HashStream& stream) {
+        constexpr double k_max_steps = 1e15;
+        const auto add_rounded = [&](double steps) {
+            stream.add(std::floor(std::clamp(steps, -k_max_steps, k_max_steps) + 0.5));
+        };
+        const Vec3 x_axis = pose.rotation * Vec3::UnitX();
+        const Vec3 y_axis = pose.rotation * Vec3::UnitY();
+        for (int axis = 0; axis < 3; ++axis) {
+            add_rounded(pose.position[axis] * (1.0 / step_m));
+            add_rounded(x_axis[axis] * (1.0 / axis_step));
+            add_rounded(y_axis[axis] * (1.0 / axis_step));
+        }
+    }
+
+    HashStream fine_;
+    HashStream coarse_;
+};
+
 class Gatherer {
   public:
     Gatherer(const GatherSurroundingsIo& io, StageStats& stats) : io_(io), stats_(stats) {}
@@ -31,6 +68,7 @@ class Gatherer {
         out.wrist_bs.position /= scale;
         out.meshes.clear();
         out.signature = 0;
+        out.search_signature = 0;
         out.authored = nullptr;
         out.is_gripping = grab.kind != GripKind::none;
         const bool body_exists =
@@ -51,16 +89,17 @@ class Gatherer {
             hold != nullptr && hold->body == grab.body) {
             out.authored = &hold->hand;
         }
-        HashStream stream;
+        Signatures signatures;
         const GripMesh* const mesh = hold_on_part != nullptr
-                                         ? enter_part(*hold_on_part, grab.body, out, stream)
+                                         ? enter_part(*hold_on_part, grab.body, out, signatures)
                                          : mesh_of(grab.body, scale);
         if (mesh != nullptr) {
             out.body = grab.body;
             out.meshes.push_back({mesh, {}});
-            add_to_signature(stream, grab.body, out.meshes.back());
-            add_nearby_meshes(out, stream);
-            out.signature = stream.value() | 1U;  // never 0, which means that there is no body
+            add_to_signatures(signatures, grab.body, out.meshes.back());
+            add_nearby_meshes(out, signatures);
+            out.signature = signatures.fine();
+            out.search_signature = signatures.coarse();
         } else if ((io_.meshes.of_shapes != nullptr || !io_.meshes.of_bodies.empty()) &&
                    io_.body_pose.contains(grab.body)) {
             stats_.count(Fallback::body_no_surface);
@@ -77,13 +116,13 @@ class Gatherer {
     // Returns the mesh of the part that the hand holds, and transforms `out` into the mesh's frame.
     // Null if hands are not fitted to parts.
     const GripMesh* enter_part(const BodyHold& hold, Entity player, HandSurroundings& out,
-                               HashStream& stream) const {
+                               Signatures& signatures) const {
         if (io_.meshes.of_shapes == nullptr) {
             return nullptr;
         }
         const PartCapsule capsule = resized(
             part_capsule(io_.shown.at(player), io_.measures.at(player), hold.part), out.scale);
-        stream.add(static_cast<std::uint64_t>(hold.part));
+        signatures.add(static_cast<std::uint64_t>(hold.part));
         const Pose frame = PartMeshes::frame_of_mesh(capsule);
         out.body_ws = out.body_ws * Pose{out.scale * frame.position, frame.rotation};
         out.wrist_bs = inverse(frame) * out.wrist_bs;
@@ -112,32 +151,19 @@ class Gatherer {
         return is_known ? &of_shapes->shared_at(collider->shape) : nullptr;
     }
 
-    // Adds the body, its mesh's digest and its pose to the hash. Positions are rounded to 0.1
-    // mm and axes to 1e-4, so that tiny numerical differences rarely change the signature.
-    void add_to_signature(HashStream& stream, Entity body, const PlacedMesh& placed) const {
-        constexpr double k_steps_per_m = 1e4;
-        constexpr double k_max_steps = 1e15;
-        const auto add = [&](double value) {
-            stream.add(
-                std::floor(std::clamp(value * k_steps_per_m, -k_max_steps, k_max_steps) + 0.5));
-        };
-        stream.add(io_.persistent_id.at(body).value);
-        stream.add(placed.mesh->digest);
-        const Vec3 x_axis = placed.pose.rotation * Vec3::UnitX();
-        const Vec3 y_axis = placed.pose.rotation * Vec3::UnitY();
-        for (int axis = 0; axis < 3; ++axis) {
-            add(placed.pose.position[axis]);
-            add(x_axis[axis]);
-            add(y_axis[axis]);
-        }
+    // Adds the body, its mesh's digest and its pose.
+    void add_to_signatures(Signatures& signatures, Entity body, const PlacedMesh& placed) const {
+        signatures.add(io_.persistent_id.at(body).value);
+        signatures.add(placed.mesh->digest);
+        signatures.add(placed.pose);
     }
 
-    void add_nearby_meshes(HandSurroundings& out, HashStream& stream) const {
+    void add_nearby_meshes(HandSurroundings& out, Signatures& signatures) const {
         const Vec3 palm_ws = transform_point(
             out.body_ws, out.scale * transform_point(out.wrist_bs, out.rig->palm_center_hs));
         if (io_.near.collision == nullptr) {
             for (const Entity body : io_.near.bodies) {
-                add_if_near(body, palm_ws, out, stream);
+                add_if_near(body, palm_ws, out, signatures);
             }
             return;
         }
@@ -151,13 +177,13 @@ class Gatherer {
                 std::ranges::lower_bound(io_.near.proxies, id, {}, &ColliderProxy::id);
             const auto i = static_cast<std::size_t>(proxy - io_.near.proxies.begin());
             if (proxy != io_.near.proxies.end() && proxy->id == id) {
-                add_if_near(io_.near.bodies[i], palm_ws, out, stream);
+                add_if_near(io_.near.bodies[i], palm_ws, out, signatures);
             }
         }
     }
 
     void add_if_near(Entity body, const Vec3& palm_ws, HandSurroundings& out,
-                     HashStream& stream) const {
+                     Signatures& signatures) const {
         const std::shared_ptr<const GripMesh>* const mesh =
             body == out.body ? nullptr : mesh_of(body);
         if (mesh == nullptr) {
@@ -168,7 +194,7 @@ class Gatherer {
             Pose placed = inverse(out.body_ws) * pose_ws;
             placed.position /= out.scale;
             out.meshes.push_back({of_scale(*mesh, out.scale), placed});
-            add_to_signature(stream, body, out.meshes.back());
+            add_to_signatures(signatures, body, out.meshes.back());
         }
     }
 

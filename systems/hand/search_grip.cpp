@@ -75,7 +75,7 @@ void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats
             }
             continue;
         }
-        if (is_searched && surface.surroundings_signature == hand.signature &&
+        if (is_searched && surface.surroundings_signature == hand.search_signature &&
             hand_travel_m(surface.wrist_bs, hand.wrist_bs) < k_search_again_m) {
             continue;
         }
@@ -84,7 +84,7 @@ void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats
         if (surface.triangle == GripSurface::k_none) {
             surface.body = hand.body;
             surface.wrist_bs = hand.wrist_bs;
-            surface.surroundings_signature = hand.signature;
+            surface.surroundings_signature = hand.search_signature;
             surface.fitted_wrist_bs = wrist_outside_bs(hand, tuning.palm);
             stats.count(Fallback::palm_no_surface);
         }

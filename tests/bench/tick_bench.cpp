@@ -58,6 +58,7 @@ class Match {
         inputs_[tick_ % ticks_].copy(given_);
         ++tick_;
         const std::size_t first = tick_ - std::min(tick_, ticks_);
+        double iterations = 0.0;
         const std::int64_t begin_ns = thread_cpu_now_ns();
         states_[first % ticks_].restore(columns().world);
         for (std::size_t tick = first; tick + 1 < tick_; ++tick) {
@@ -67,6 +68,7 @@ class Match {
                 return false;
             }
             tick_us.push_back(1e-3 * static_cast<double>(thread_cpu_now_ns() - tick_ns));
+            iterations += newton_iterations();
         }
         const std::int64_t shown_ns = thread_cpu_now_ns();
         if (!scene_.host.step(k_dt_s, inputs_[(tick_ - 1) % ticks_].inputs)) {
@@ -75,19 +77,25 @@ class Match {
         const std::int64_t end_ns = thread_cpu_now_ns();
         shown_us.push_back(1e-3 * static_cast<double>(end_ns - shown_ns));
         frame_ms.push_back(1e-6 * static_cast<double>(end_ns - begin_ns));
+        frame_iterations.push_back(iterations + newton_iterations());
         for (const Grab& grab : columns().world.grab.elements()) {
             grips += grab.kind != GripKind::none ? 1.0 : 0.0;
         }
         return true;
     }
 
-    std::vector<double> tick_us;   // ticks that are not shown
-    std::vector<double> shown_us;  // the last tick of each frame
-    std::vector<double> frame_ms;  // all ticks of a frame, and the return
-    double grips = 0.0;            // hands that grip, summed over frames
+    std::vector<double> tick_us;           // ticks that are not shown
+    std::vector<double> shown_us;          // the last tick of each frame
+    std::vector<double> frame_ms;          // all ticks of a frame, and the return
+    std::vector<double> frame_iterations;  // Newton iterations of all ticks of a frame
+    double grips = 0.0;                    // hands that grip, summed over frames
 
   private:
     HostColumns columns() { return columns_of(scene_.host.get()); }
+    double newton_iterations() const {
+        const hh_world* const world = scene_.host.get();
+        return static_cast<double>(columns_of(world).stats.newton_iterations);
+    }
 
     Scene scene_;
     std::unique_ptr<Crowd> crowd_;
@@ -124,6 +132,7 @@ void play(benchmark::State& state, const char* name, std::size_t ticks = 18) {
         add_percentiles("tick_us", match.tick_us, state);
         add_percentiles("shown_us", match.shown_us, state);
         add_percentiles("frame_ms", match.frame_ms, state);
+        add_percentiles("frame_iterations", match.frame_iterations, state);
         state.counters["gripping_hands"] = match.grips / k_frames;
     }
 }

@@ -60,6 +60,7 @@ class OneHand {
                                  .wrist_bs = wrist,
                                  .meshes = {{&mesh, {}}},
                                  .signature = 1,
+                                 .search_signature = 1,
                                  .is_gripping = true});
     }
     OneHand(const OneHand&) = delete;

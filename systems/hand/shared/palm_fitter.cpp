@@ -62,7 +62,7 @@ GripSurface PalmFitter::surface_at(const Candidate& candidate) const {
     GripSurface surface;
     surface.body = hand_.body;
     surface.wrist_bs = hand_.wrist_bs;
-    surface.surroundings_signature = hand_.signature;
+    surface.surroundings_signature = hand_.search_signature;
     surface.triangle = candidate.triangle;
     surface.point_bs = transform_point(placed_.pose, point);
     surface.normal_bs =

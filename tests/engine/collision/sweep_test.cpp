@@ -321,5 +321,41 @@ TEST(Sweep, PairThatOverlapsAtTheEndOfAMotionHasAContact) {
     EXPECT_GT(overlaps, 150);
 }
 
+// Two boxes, one flying into the other while it turns: whatever overlap is left at the end, the
+// contacts know its depth. A corner that hangs over the other box's edge counts, because the box
+// turns about that edge into the other.
+TEST(Sweep, ContactsOfATurningBoxAreAtLeastAsDeepAsTheOverlapAtTheEnd) {
+    constexpr double k_tolerance_m = 1e-5;
+    Random random(73);
+    int overlaps = 0;
+    for (int round = 0; round < 1000; ++round) {
+        ShapeLibrary shapes;
+        const Vec3 half_b{random.between(0.05, 0.2), random.between(0.05, 0.2),
+                          random.between(0.05, 0.2)};
+        const Vec3 half_a = random.between(0.5, 1.0) * half_b;
+        const ShapeId a = shapes.add_box(half_a);
+        const ShapeId b = shapes.add_box(half_b);
+        const double apart_m = half_a.norm() + half_b.norm() + 0.01;
+        const Vec3 from_m = apart_m * random.direction();
+        const Pose from = at(from_m, random.rotation());
+        const Vec3 axis = random.direction();
+        const Quat turn = rotation_about(axis, random.between(0.0, 0.5));
+        const Vec3 aside_m = random.vector(0.1);
+        const Vec3 to_m = random.between(0.4, 0.8) * from_m + aside_m;
+        const ColliderProxy moves = moving(1, a, from, at(to_m, turn * from.rotation));
+        const ColliderProxy rests = resting(2, b, {}, true);
+        CollisionWorld world(shapes);
+        world.set_proxies(std::vector{moves, rests});
+        const double overlap_m = world.overlap_m(moves, rests);
+        if (overlap_m > 10.0 * k_tolerance_m) {
+            std::vector<ContactPoint> contacts;
+            world.find_contacts({}, contacts);
+            EXPECT_LE(test::deepest(contacts), -overlap_m + k_tolerance_m) << round;
+            ++overlaps;
+        }
+    }
+    EXPECT_GT(overlaps, 100);
+}
+
 }  // namespace
 }  // namespace handhold::collision_sweep_test

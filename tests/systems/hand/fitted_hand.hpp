@@ -64,6 +64,7 @@ struct FittedHand {
                          .wrist_bs = wrist_bs,
                          .meshes = {{&mesh, {}}},
                          .signature = 1,
+                         .search_signature = 1,
                          .is_gripping = true});
     }
     FittedHand(const FittedHand&) = delete;

@@ -117,5 +117,40 @@ TEST(GatherSurroundings, CountsNothingForEmptyHandsAndDestroyedBodies) {
     EXPECT_EQ(scene.counted(), 0U);
 }
 
+// A body beside the hand moves by 40 mm and turns by 0.2 rad in 100 frames, as a link of a cable
+// does. Each change of search_signature costs a search for a surface.
+TEST(GatherSurroundings, BodiesThatMoveBesideTheHandRarelyChangeTheSearchSignature) {
+    constexpr int k_frames = 100;
+    const Vec3 move_m(0.03, 0.02, 0.017);
+    constexpr double k_turn_rad = 0.2;
+    OneHand scene;
+    const GripMeshLibrary meshes(scene.shapes);
+    const Entity other = test::entity(9);
+    scene.persistent_id.add(other).value = 8;
+    scene.body_pose.add(other);
+    scene.collider.add(other).shape = scene.box;
+    scene.bodies = {k_wall, other};
+    int changes = 0;
+    int search_changes = 0;
+    std::uint64_t last = 0;
+    std::uint64_t last_search = 0;
+    for (int frame = 0; frame < k_frames; ++frame) {
+        const double share = static_cast<double>(frame) / k_frames;
+        scene.body_pose.at(other).pose_ws = {Vec3(0.6, 0.55, 0.0) + share * move_m,
+                                             rotation_about(Vec3::UnitZ(), share * k_turn_rad)};
+        const HandSurroundings& hand = scene.gather(&meshes);
+        ASSERT_EQ(hand.meshes.size(), 2U);
+        changes += hand.signature != last ? 1 : 0;
+        search_changes += hand.search_signature != last_search ? 1 : 0;
+        last = hand.signature;
+        last_search = hand.search_signature;
+    }
+    EXPECT_EQ(changes, k_frames);
+    // A rounded coordinate changes once a step: 67 mm on three axes, and two axes that turn by
+    // 0.2 rad.
+    EXPECT_LE(search_changes, 1 + 14 + 3 + 2 * 4 + 4);
+    EXPECT_GE(search_changes, 6);  // the largest coordinate alone
+}
+
 }  // namespace
 }  // namespace handhold::gather_surroundings_test

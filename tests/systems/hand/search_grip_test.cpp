@@ -84,7 +84,7 @@ TEST(SearchGrip, HandAtRestIsDepenetratedFromAMovedBody) {
         hand.search();
         ASSERT_LE(palm_penetration_m(hand), 1e-4);
         around.meshes.back().pose.position.x() += shift_m;
-        ++around.signature;
+        ++around.search_signature;
         hand.search();
         EXPECT_LE(palm_penetration_m(hand), 1e-3) << shift_m;
     }
@@ -132,7 +132,7 @@ TEST(SearchGrip, SurfaceStaysUntilTheHandOrItsSurroundingsHaveMoved) {
         if (std::abs(travel_m - 0.03) > 1e-6) {
             EXPECT_EQ(is_same, travel_m < 0.03) << i << ": " << travel_m;
         }
-        ++hand.hands.front().signature;
+        ++hand.hands.front().search_signature;
         hand.search();
         EXPECT_EQ(hand.surface.at(k_right).wrist_bs.position, hand.wrist_bs().position) << i;
     }
