@@ -19,7 +19,7 @@ constexpr std::int32_t k_closing_again_rounds = 2;
 // Rounds from the last fit; the following frames continue.
 constexpr std::int32_t k_rounds = 1;
 constexpr double k_max_flex_rad = 0.15;  // largest step of an angle in a round from the last fit
-constexpr double k_deep_m = 3e-3;        // a fit that penetrates deeper is counted
+constexpr double k_deep_m = 3e-3;        // a fit that penetrates deeper is counted, or given up
 
 // How far a digit of an empty hand is closed: 0 at rest, 1 in a fist.
 double closed_share(const HandTracking& hand, FingerName digit) {
@@ -180,6 +180,12 @@ void fit_one(const HandSurroundings& hand, const GripSurface& surface, const Tun
         pose.thumbs_tried = 0;
     } else if (tries_thumb(hand, pose)) {
         ++pose.thumbs_tried;
+    }
+    // A fit from the last one that has led into a solid need not lead out of it again, one round a
+    // frame: the hand closes again in the next frame. Not twice in a row, so that hands at rest
+    // end.
+    if (!pose.is_newly_closed && hand.authored == nullptr && fit.penetration_m > k_deep_m) {
+        pose.closed_body = k_no_entity;
     }
     pose.is_newly_closed = false;
     pose.fitted_body = hand.body;

@@ -32,8 +32,8 @@ struct FitHandsIo {
     const Column<GripSurface>& surface;       // in: body frame (_bs)
     Column<PalmOffset>& offset;               // in: held_*; in/out: target_*, shown_*, hand space
     // in: results of sweep_fingers (closed, touches, is_closed_clear, is_authored); in/out:
-    // is_newly_closed, target, shown, is_clear, is_converged, thumbs_tried and fitted_*; angles in
-    // radians
+    // is_newly_closed, closed_body, target, shown, is_clear, is_converged, thumbs_tried and
+    // fitted_*; angles in radians
     Column<FingerPose>& fingers;
     Column<PalmPose>& palm;  // out: shown wrist, world space
 };
@@ -44,7 +44,8 @@ struct FitHandsIo {
 // A hand that has just closed starts at the palm within its limits and the closed digits
 // (constrain_palms, sweep_fingers). Other hands start at the last fit, carried along with the
 // tracked wrist. A hand that closes again on the body that it grips is fitted from both starts and
-// takes the closing only if its fit costs less than k_change_cost_share of the other.
+// takes the closing only if its fit costs less than k_change_cost_share of the other. A hand whose
+// fit from the last one has led into a solid closes again in the next frame, not twice in a row.
 //
 // In each of the k_thumb_tries fits after one from a closing, the thumb also starts at another
 // opposition, outside authored grips; the hand takes it if it then costs clearly less.

@@ -38,8 +38,8 @@ struct SweepFingersIo {
 // (shared/thumb_closing.hpp).
 //
 // A hand closes again on another body, at another place of the surface (search_grip), when it
-// enters or leaves an authored grip, and after k_close_again_m of travel. In an authored grip it
-// closes again only if the authored wrist changes.
+// enters or leaves an authored grip, after k_close_again_m of travel, and after a fit that has led
+// into a solid (fit_hands). In an authored grip it closes again only if the authored wrist changes.
 //
 // Digits with an authored pose take it, unless it penetrates by more than
 // FingerTuning::search_depth_m. Talk row 10. A hand without a surface does not close; digits with

@@ -213,6 +213,35 @@ TEST_F(FitHands, TurningHandMovesContinuously) {
     EXPECT_LT(test::deepest_digit_m(hand, hand.pose().target, hand.shown_bs()), 1.5e-3);
 }
 
+// Far turns about any axis, at up to 1 degree in a frame. A fit may be led into the solid, but the
+// hand then closes again and does not stay in it.
+TEST_F(FitHands, HandsThatTurnFarDoNotStayInSolids) {
+    constexpr int k_hands = 30;
+    constexpr int k_frames = 120;
+    int deep = 0;
+    int longest = 0;
+    for (unsigned seed = 1; seed <= k_hands; ++seed) {
+        Random random(seed);
+        FittedHand hand(beam, on_beam);
+        const Vec3 axis = random.direction();
+        const double far_rad = random.between(40.0, 80.0) * k_degree;
+        int in_solid = 0;
+        for (int frame = 0; frame < k_frames; ++frame) {
+            const double turn_rad = far_rad * std::min(1.0, frame / 80.0);
+            hand.wrist_bs().rotation =
+                (on_beam.rotation * rotation_about(axis, turn_rad)).normalized();
+            hand.frame(k_unlimited_s);
+            const bool is_deep =
+                test::deepest_digit_m(hand, hand.pose().target, hand.shown_bs()) > 3e-3;
+            in_solid = is_deep ? in_solid + 1 : 0;
+            deep += is_deep ? 1 : 0;
+            longest = std::max(longest, in_solid);
+        }
+    }
+    EXPECT_LT(deep, k_hands * k_frames / 100);
+    EXPECT_LT(longest, 12);
+}
+
 TEST_F(FitHands, StationaryHandConvergesAndKeepsItsFit) {
     FittedHand hand(beam, on_beam);
     int frames = 0;
