@@ -12,9 +12,16 @@ export declare const HANDHOLD_VERSION_MINOR: 2;
 export declare const HANDHOLD_VERSION_PATCH: 0;
 export declare const HANDHOLD_VERSION_TEXT: "0.2.0";
 export declare const HH_HAND_JOINT_COUNT: 26;
+export declare const HH_IS_BY_NAME: 0;
 export declare const HH_IS_BODY: 100;
 export declare const HH_IS_LEFT_HAND: 200;
 export declare const HH_IS_RIGHT_HAND: 300;
+export declare const HH_MATCH_PLAYERS: 16;
+export declare const HH_MATCH_PACKET_BYTES: 1200;
+export declare const HH_MATCH_INPUTS_BYTES: 8192;
+export declare const HH_MATCH_NO_SLOT: 4294967295;
+export declare const HH_MATCH_PLACES: 64;
+export declare const HH_MATCH_REFUSALS: 16;
 export declare const HH_OK: 0;
 /** a pointer that is needed is null */
 export declare const HH_ERROR_NULL: 1;
