@@ -2093,7 +2093,7 @@ namespace Handhold {
 
     public partial class World {
 
-        /// <summary>Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player; players without one are silent. Bad samples are ignored and counted; numbers in commands that are out of range are clamped. Cost: 0.05 ms a player who crawls, 0.15 ms one who climbs all the time, and up to 4 ms in the frame in which a hand closes: docs/guide/cost.md.</summary>
+        /// <summary>Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player, else HH_ERROR_VALUE; players without one are silent. Bad samples are ignored and counted; numbers in commands that are out of range are clamped. Cost: 0.05 ms a player who crawls, 0.15 ms one who climbs all the time, and up to 4 ms in the frame in which a hand closes: docs/guide/cost.md.</summary>
         public unsafe void Step(double dt_s, PlayerInput[] inputs) {
             fixed (PlayerInput* inputs_at = inputs) {
                 Library.Check(Native.hh_world_step(Handle, dt_s, inputs_at, Library.Count(inputs)));
@@ -3056,7 +3056,7 @@ namespace Handhold {
             GC.KeepAlive(this);
         }
 
-        /// <summary>Where bodies are now, after the host's own step. Unlike a teleport it ends no grip. A kinematic body rests there until hh_body_move_kinematic says where it will be at the end of the next step. Places all or, on an error, none.</summary>
+        /// <summary>Where bodies are now, after the host's own step. Unlike a teleport it ends no grip. A kinematic body rests there until hh_body_move_kinematic says where it will be at the end of the next step. Places all or, on an error, none. HH_ERROR_VALUE for a body that is there twice.</summary>
         public unsafe void PlaceBodies(BodyMotion[] motions) {
             fixed (BodyMotion* motions_at = motions) {
                 Library.Check(Native.hh_world_place_bodies(Handle, motions_at, Library.Count(motions)));
@@ -3129,7 +3129,7 @@ namespace Handhold {
             return motions;
         }
 
-        /// <summary>Second half, after the host's solver. `players`: the solved play spaces; one left out moves as predicted. Bodies that the host has not placed since hh_world_begin_step rest where they were. Releases grips, limits velocities and shows hands and bodies. On an error the step stays begun.</summary>
+        /// <summary>Second half, after the host's solver. `players`: the solved play spaces; one left out moves as predicted, HH_ERROR_VALUE for one that is there twice. Bodies that the host has not placed since hh_world_begin_step rest where they were. Releases grips, limits velocities and shows hands and bodies. On an error the step stays begun.</summary>
         public unsafe void EndStep(SolvedPlayer[] players) {
             fixed (SolvedPlayer* players_at = players) {
                 Library.Check(Native.hh_world_end_step(Handle, players_at, Library.Count(players)));

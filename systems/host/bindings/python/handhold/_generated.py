@@ -1610,10 +1610,10 @@ class WorldCalls:
     _handle = None
 
     def step(self, dt_s, inputs):
-        """Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player; players without
-        one are silent. Bad samples are ignored and counted; numbers in commands that are out of range are
-        clamped. Cost: 0.05 ms a player who crawls, 0.15 ms one who climbs all the time, and up to 4 ms in the
-        frame in which a hand closes: docs/guide/cost.md."""
+        """Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player, else
+        HH_ERROR_VALUE; players without one are silent. Bad samples are ignored and counted; numbers in
+        commands that are out of range are clamped. Cost: 0.05 ms a player who crawls, 0.15 ms one who climbs
+        all the time, and up to 4 ms in the frame in which a hand closes: docs/guide/cost.md."""
         inputs, input_count_ = array(PlayerInput, inputs)
         check(lib().hh_world_step(self._handle, dt_s, inputs, input_count_))
 
@@ -2256,7 +2256,7 @@ class WorldCalls:
     def place_bodies(self, motions):
         """Where bodies are now, after the host's own step. Unlike a teleport it ends no grip. A kinematic body
         rests there until hh_body_move_kinematic says where it will be at the end of the next step. Places all
-        or, on an error, none."""
+        or, on an error, none. HH_ERROR_VALUE for a body that is there twice."""
         motions, count_ = array(BodyMotion, motions)
         check(lib().hh_world_place_bodies(self._handle, motions, count_))
 
@@ -2311,8 +2311,9 @@ class WorldCalls:
 
     def end_step(self, players):
         """Second half, after the host's solver. `players`: the solved play spaces; one left out moves as
-        predicted. Bodies that the host has not placed since hh_world_begin_step rest where they were.
-        Releases grips, limits velocities and shows hands and bodies. On an error the step stays begun."""
+        predicted, HH_ERROR_VALUE for one that is there twice. Bodies that the host has not placed since
+        hh_world_begin_step rest where they were. Releases grips, limits velocities and shows hands and
+        bodies. On an error the step stays begun."""
         players, count_ = array(SolvedPlayer, players)
         check(lib().hh_world_end_step(self._handle, players, count_))
 
