@@ -31,15 +31,28 @@ inline BodyMeasures scaled(const BodyMeasures& measures, double scale) {
             scale * measures.upper_arm_m, scale * measures.forearm_m};
 }
 
-// True if a player of that scale may have these measures.
-inline bool are_measures(const BodyMeasures& measures, double scale) {
-    const auto [shortest_m, longest_m] =
-        std::minmax({measures.eye_height_m, measures.shoulder_width_m, measures.upper_arm_m,
-                     measures.forearm_m});
+// The first measure that a player of that scale may not have. The name is null if all are right.
+struct WrongMeasure {
+    const char* name = nullptr;
+    double value_m = 0.0;
+};
+inline WrongMeasure wrong_measure(const BodyMeasures& measures, double scale) {
     // A measure at the end of the range may be rounded past it when it is scaled.
     constexpr double k_rounding = 1e-12;
-    return shortest_m >= (1.0 - k_rounding) * scale * BodyMeasures::k_min_m &&
-           longest_m <= (1.0 + k_rounding) * scale * BodyMeasures::k_max_m;
+    const double least_m = (1.0 - k_rounding) * scale * BodyMeasures::k_min_m;
+    const double most_m = (1.0 + k_rounding) * scale * BodyMeasures::k_max_m;
+    for (const WrongMeasure& one : {WrongMeasure{"eye_height_m", measures.eye_height_m},
+                                    WrongMeasure{"shoulder_width_m", measures.shoulder_width_m},
+                                    WrongMeasure{"upper_arm_m", measures.upper_arm_m},
+                                    WrongMeasure{"forearm_m", measures.forearm_m}}) {
+        if (!(one.value_m >= least_m && one.value_m <= most_m)) {  // true for NaN
+            return one;
+        }
+    }
+    return {};
+}
+inline bool are_measures(const BodyMeasures& measures, double scale) {
+    return wrong_measure(measures, scale).name == nullptr;
 }
 
 // Displacement of the chest from where the head alone would place it.

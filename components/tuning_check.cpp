@@ -10,10 +10,10 @@ namespace {
 void check_number(const TuningInfo& info, double value) {
     if (!(value >= info.low && value <= info.high)) [[unlikely]] {
         fail_precondition("check_tuning",
-                          (std::string(info.name) + " must lie in [" + std::to_string(info.low) +
-                           ", " + std::to_string(info.high) + "]")
+                          (std::string(info.name) + " must lie in [" + number_text(info.low) +
+                           ", " + number_text(info.high) + "]")
                               .c_str(),
-                          std::to_string(value));
+                          number_text(value));
     }
 }
 

@@ -82,7 +82,7 @@ double wrong_number_of(const Pose& pose) {
 void check_rigid_body(const RigidBody& body, const char* caller) {
     const auto check = [caller](bool is_good, const char* what, double value) {
         if (!is_good) {
-            fail_precondition(caller, what, std::to_string(value));
+            fail_precondition(caller, what, number_text(value));
         }
     };
     const bool is_free = body.kind == BodyKind::free;
@@ -105,7 +105,7 @@ namespace {
 void check_body(const World& world, const BodyDescription& description, const char* caller) {
     const auto check = [caller](bool is_good, const char* what, double value) {
         if (!is_good) {
-            fail_precondition(caller, what, std::to_string(value));
+            fail_precondition(caller, what, number_text(value));
         }
     };
     check(is_in_world(description.pose_ws), "the pose is not valid",
@@ -161,7 +161,7 @@ namespace {
 void check_numbers_of(const Joint& joint, const char* caller) {
     const auto check = [caller](bool is_good, const char* what, double value) {
         if (!is_good) {
-            fail_precondition(caller, what, std::to_string(value));
+            fail_precondition(caller, what, number_text(value));
         }
     };
     const auto is_coordinate = [](double number) {
@@ -234,8 +234,9 @@ PlayerEntities add_player(World& world, const PlayerDescription& description) {
              beyond(description.velocity_mps, world_limits::k_max_speed_mps));
     HH_CHECK(is_in(description.scale, PlayerOrigin::k_min_scale, PlayerOrigin::k_max_scale),
              "a player's scale must lie within 0.01 to 100", description.scale);
-    HH_CHECK(are_measures(description.measures, 1.0),
-             "the body's measures must lie within 0.05 to 5 m", description.measures.eye_height_m);
+    const WrongMeasure wrong = wrong_measure(description.measures, 1.0);
+    HH_CHECK(wrong.name == nullptr,
+             (std::string(wrong.name) + " must lie within 0.05 to 5 m").c_str(), wrong.value_m);
     check_name_is_unique(world, description.name);
     const std::string hand_names[k_hand_count] = {std::string(description.name) + "/left_hand",
                                                   std::string(description.name) + "/right_hand"};

@@ -11,7 +11,7 @@ namespace {
 void check_place(const char* caller, const Pose& pose_ws) {
     const bool is_near = pose_ws.position.cwiseAbs().maxCoeff() <= world_limits::k_max_coordinate_m;
     if (!is_valid(pose_ws) || !is_near) {
-        fail_precondition(caller, "the pose is not valid", std::to_string(pose_ws.position.norm()));
+        fail_precondition(caller, "the pose is not valid", number_text(pose_ws.position.norm()));
     }
 }
 

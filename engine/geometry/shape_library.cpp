@@ -24,6 +24,17 @@ bool is_scale(double factor) {
     return std::abs(factor) >= k_min_scale && std::abs(factor) <= k_max_scale;
 }
 
+// The dimensions of capsules and cylinders.
+void check_round(const char* caller, double radius_m, double half_height_m) {
+    const auto check = [caller](const char* what, double size_m) {
+        if (!is_size(size_m)) {
+            fail_precondition(caller, what, number_text(size_m));
+        }
+    };
+    check("radius outside of [1e-3, 1e4] m", radius_m);
+    check("half_height_m outside of [1e-3, 1e4] m", half_height_m);
+}
+
 // Radius about the compound's origin that contains the part.
 double farthest_m(const PlacedShape& part) {
     const Vec3& centre = part.pose.position;
@@ -107,8 +118,6 @@ ShapeId ShapeLibrary::add_sphere(double radius_m) {
 }
 
 ShapeId ShapeLibrary::add_round(ShapeKind kind, double radius_m, double half_height_m) {
-    HH_CHECK(is_size(radius_m), "radius outside of [1e-3, 1e4] m", radius_m);
-    HH_CHECK(is_size(half_height_m), "half_height_m outside of [1e-3, 1e4] m", half_height_m);
     Shape shape;
     shape.kind = kind;
     shape.radius_m = radius_m;
@@ -117,10 +126,12 @@ ShapeId ShapeLibrary::add_round(ShapeKind kind, double radius_m, double half_hei
 }
 
 ShapeId ShapeLibrary::add_capsule(double radius_m, double half_height_m) {
+    check_round(__func__, radius_m, half_height_m);
     return add_round(ShapeKind::capsule, radius_m, half_height_m);
 }
 
 ShapeId ShapeLibrary::add_cylinder(double radius_m, double half_height_m) {
+    check_round(__func__, radius_m, half_height_m);
     return add_round(ShapeKind::cylinder, radius_m, half_height_m);
 }
 

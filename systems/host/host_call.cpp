@@ -52,6 +52,21 @@ hh_result report_failure(hh_result result, const char* text) noexcept {
     return result;
 }
 
+void fail_size(std::string_view name, bool is_filled, std::size_t size, std::size_t first_size,
+               std::size_t own_size) {
+    std::string text(name);
+    text += " of " + std::to_string(size) + " bytes: this library knows ";
+    if (first_size < own_size) {
+        text += std::to_string(first_size) + " to ";
+    }
+    text += std::to_string(own_size) + " bytes";
+    if (is_filled) {  // all names begin with hh_
+        text +=
+            "; fill it by hh_default_" + std::string(name.substr(3)) + ", which sets struct_size";
+    }
+    throw HostError{HH_ERROR_VERSION, text};
+}
+
 }  // namespace handhold
 
 using namespace handhold;

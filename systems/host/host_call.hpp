@@ -40,6 +40,15 @@ inline void require(bool condition, hh_result result, const char* text) {
     }
 }
 
+// Refuses a count before its array is read: no element may be there twice.
+inline void require_at_most(std::size_t count, std::size_t most, const char* elements,
+                            const char* owners) {
+    require(count <= most, HH_ERROR_VALUE, [&] {
+        return std::to_string(count) + " " + elements + " are more than the world's " + owners +
+               " (" + std::to_string(most) + ")";
+    });
+}
+
 // Passes a note to the host's log, if the host has one.
 void log_note(const char* text) noexcept;
 // Stores the text for hh_last_error and logs it; HH_ERROR_INTERNAL also calls the assert hook.

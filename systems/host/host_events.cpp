@@ -246,7 +246,7 @@ hh_result hh_world_events_sized(const hh_world* world, const hh_event** events, 
         const hh_world& host = world_of(world);
         require(events != nullptr && count != nullptr, HH_ERROR_NULL, "an output is null");
         // Its first version is that of 0.2.0.
-        require_size(event_size, sizeof(hh_event), sizeof(hh_event));
+        require_size<hh_event>(event_size);
         *events = host.events.data();
         *count = host.events.size();
         if (event_size < sizeof(hh_event)) {

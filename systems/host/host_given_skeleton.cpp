@@ -151,7 +151,7 @@ BodyRig fit_skeleton(std::span<const hh_skeleton_joint> joints, hh_space space) 
     require(space == HH_SPACE_WORLD || space == HH_SPACE_PARENT, HH_ERROR_VALUE,
             "a space is HH_SPACE_WORLD or HH_SPACE_PARENT");
     const SkinnedMesh figure = read_figure(joints, space);
-    Result<BodyRig> rig = fit_body_rig_with(figure, read_map(joints));
+    Result<BodyRig> rig = fit_body_rig_with(figure, read_map(joints), "hh_skeleton_joint.is");
     if (!rig) {
         throw HostError{HH_ERROR_DATA, "skeleton: " + rig.error().expected};
     }

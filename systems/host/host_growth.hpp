@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <string_view>
 
 #include "systems/host/host_call.hpp"
 
@@ -12,13 +13,29 @@
 // know.
 namespace handhold {
 
-inline void require_size(std::size_t size, std::size_t first_size, std::size_t own_size) {
-    require(size >= first_size && size <= own_size, HH_ERROR_VERSION, [&] {
-        return "a struct of " + std::to_string(size) +
-               " bytes is not of a version that this library knows (" + std::to_string(first_size) +
-               " to " + std::to_string(own_size) +
-               " bytes): fill it by its hh_default_ function, which sets struct_size";
-    });
+// Name of a struct of the C interface, "hh_body_def".
+template <typename Struct>
+constexpr std::string_view name_of_struct() {
+    // GCC: "... [with Struct = hh_body_def; ...]". Clang: "... [Struct = hh_body_def]".
+    std::string_view name = __PRETTY_FUNCTION__;
+    name.remove_prefix(name.find("Struct = ") + std::string_view("Struct = ").size());
+    return name.substr(0, name.find_first_of(";]"));
+}
+
+// Throws HH_ERROR_VERSION: a struct of `size` bytes, of which this library knows those from
+// `first_size` to `own_size`. `is_filled`: an hh_default_ function sets its struct_size.
+[[noreturn]] void fail_size(std::string_view name, bool is_filled, std::size_t size,
+                            std::size_t first_size, std::size_t own_size);
+
+// Checks the size of a host's struct.
+template <typename Struct>
+void require_size(std::size_t size, std::size_t first_size = sizeof(Struct),
+                  std::size_t own_size = sizeof(Struct)) {
+    if (size < first_size || size > own_size) [[unlikely]] {
+        fail_size(
+            name_of_struct<Struct>(), requires(Struct s) { s.struct_size; }, size, first_size,
+            own_size);
+    }
 }
 
 // Reads a definition of any version up to this library's: fields that it lacks have their default.
@@ -27,7 +44,7 @@ template <typename Def>
 Def read_def(const Def* def, const Def& defaults, std::size_t first_size = sizeof(Def)) {
     require(def != nullptr, HH_ERROR_NULL, "the definition is null");
     const std::size_t size = def->struct_size;
-    require_size(size, first_size, sizeof(Def));
+    require_size<Def>(size, first_size);
     Def read = defaults;
     std::memcpy(&read, def, size);
     return read;
@@ -39,7 +56,7 @@ template <typename Out>
 void write_out(Out* out, Out value, std::size_t first_size = sizeof(Out)) {
     require(out != nullptr, HH_ERROR_NULL, "the output is null");
     const std::uint32_t size = out->struct_size;
-    require_size(size, first_size, sizeof(Out));
+    require_size<Out>(size, first_size);
     value.struct_size = size;
     std::memcpy(out, &value, size);
 }
@@ -52,7 +69,7 @@ hh_result write_default(Def* filled, std::size_t size, Def defaults,
     return call([&] {
         require(filled != nullptr, HH_ERROR_NULL, "the output is null");
         std::memset(filled, 0, size);
-        require_size(size, first_size, sizeof(Def));
+        require_size<Def>(size, first_size);
         defaults.struct_size = static_cast<std::uint32_t>(size);
         std::memcpy(filled, &defaults, size);
     });
@@ -66,6 +83,20 @@ const T& sized_element(const T* first, std::size_t size, std::size_t i) {
 template <typename T>
 T& sized_element(T* first, std::size_t size, std::size_t i) {
     return *reinterpret_cast<T*>(reinterpret_cast<char*>(first) + i * size);
+}
+
+// Reads element `i` of an array of definitions. HH_ERROR_VERSION unless it has the struct_size of
+// the first element, which this library knows.
+template <typename Def>
+Def read_def_at(const Def* defs, std::size_t i, const Def& defaults) {
+    const Def& element = sized_element(defs, defs->struct_size, i);
+    require(element.struct_size == defs->struct_size, HH_ERROR_VERSION, [&] {
+        const std::string name(name_of_struct<Def>());
+        return "element " + std::to_string(i) + " of an array of " + name + " has struct_size " +
+               std::to_string(element.struct_size) + ", the first has " +
+               std::to_string(defs->struct_size) + ": fill each by hh_default_" + name.substr(3);
+    });
+    return read_def(&element, defaults);
 }
 
 // Layout of a struct that grows and contains an array of structs that grow. Its own later fields

@@ -82,9 +82,9 @@ NestedLayout pose_layout(std::size_t pose_size, std::size_t hand_size) {
                               .nested_count = k_hand_count};
     const std::size_t own_tail_size = sizeof(hh_player_pose) - offsetof(hh_player_pose, hands) -
                                       k_hand_count * sizeof(hh_hand_state);
-    require_size(hand_size, k_first_hand_size, sizeof(hh_hand_state));
-    require_size(pose_size, layout.tail_at() + k_first_pose_tail_size,
-                 layout.tail_at() + own_tail_size);
+    require_size<hh_hand_state>(hand_size, k_first_hand_size);
+    require_size<hh_player_pose>(pose_size, layout.tail_at() + k_first_pose_tail_size,
+                                 layout.tail_at() + own_tail_size);
     return layout;
 }
 
@@ -103,7 +103,7 @@ hh_result hh_player_hand_sized(const hh_world* world, hh_player player, hh_side 
     return call([&] {
         const hh_world& host = world_of(world);
         require(hand != nullptr, HH_ERROR_NULL, "the output is null");
-        require_size(hand_size, k_first_hand_size, sizeof(hh_hand_state));
+        require_size<hh_hand_state>(hand_size, k_first_hand_size);
         const hh_hand_state state = hand_state(host, player_of(host, player), side_of(side));
         std::memcpy(hand, &state, hand_size);
     });

@@ -310,14 +310,15 @@ hh_result hh_match_sync_test(hh_match* match, const hh_match_input* inputs, size
         require(match_of(match).sync != nullptr, HH_ERROR_STATE, "the match is not a sync test");
         require(difference != nullptr, HH_ERROR_NULL, "the output is null");
         require(inputs != nullptr, HH_ERROR_NULL, "the inputs are null");
-        require(input_count == match->def.player_count, HH_ERROR_VALUE,
-                "a sync test needs one input for each slot");
+        require(input_count == match->def.player_count, HH_ERROR_VALUE, [&] {
+            return "a sync test needs one input for each of the " +
+                   std::to_string(match->def.player_count) + " slots, not " +
+                   std::to_string(input_count);
+        });
         std::array<MatchInput, k_most_match_players> of_slots;
         for (std::size_t slot = 0; slot < input_count; ++slot) {
-            const hh_match_input& input = sized_element(inputs, inputs->struct_size, slot);
-            require(input.struct_size == inputs->struct_size, HH_ERROR_VERSION,
-                    "the elements of an array have different struct_size");
-            of_slots[slot] = take_input(*match, slot, read_def(&input, hh_default_match_input()));
+            const hh_match_input input = read_def_at(inputs, slot, hh_default_match_input());
+            of_slots[slot] = take_input(*match, slot, input);
         }
         match->events.clear();
         const SyncDifference found = match->sync->advance(of_slots);
@@ -378,7 +379,7 @@ hh_result hh_match_events_sized(const hh_match* match, const hh_match_event** ev
         const hh_match& of_host = match_of(match);
         require(events != nullptr && count != nullptr, HH_ERROR_NULL, "an output is null");
         // The first version is this one.
-        require_size(event_size, sizeof(hh_match_event), sizeof(hh_match_event));
+        require_size<hh_match_event>(event_size);
         *events = of_host.events.data();
         *count = of_host.events.size();
     });

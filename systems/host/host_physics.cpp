@@ -94,8 +94,14 @@ hh_result hh_world_place_bodies(hh_world* world, const hh_body_motion* motions, 
     return call([&] {
         hh_world& host = world_of(world);
         require(count == 0 || motions != nullptr, HH_ERROR_NULL, "the motions are null");
+        require_at_most(count, host.world.body.size(), "motions", "bodies");
+        host.is_there.assign(host.world.body.size(), 0);
         for (std::size_t i = 0; i < count; ++i) {
-            read_motion(host, motions[i]);
+            std::uint8_t& is_there =
+                host.is_there[host.world.body.find_index(read_motion(host, motions[i]).body)];
+            require(is_there == 0, HH_ERROR_VALUE,
+                    [&] { return "motion " + std::to_string(i) + ": its body is there twice"; });
+            is_there = 1;
         }
         for (std::size_t i = 0; i < count; ++i) {
             const ToldMotion motion = read_motion(host, motions[i]);

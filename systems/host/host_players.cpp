@@ -21,6 +21,18 @@ bool is_default(const hh_measures& measures) {
            measures.upper_arm_m == usual.upper_arm_m && measures.forearm_m == usual.forearm_m;
 }
 
+// Measures that a player of that scale may have.
+BodyMeasures checked_measures(const hh_measures& measures, double scale) {
+    const BodyMeasures read = read_measures(measures);
+    const WrongMeasure wrong = wrong_measure(read, scale);
+    require(wrong.name == nullptr, HH_ERROR_VALUE, [&] {
+        return std::string("measures.") + wrong.name + " is " + number_text(wrong.value_m) +
+               ": it must lie within 0.05 to 5 m" +
+               (scale == 1.0 ? "" : " times the player's scale, " + number_text(scale));
+    });
+    return read;
+}
+
 hh_measures write_measures(const BodyMeasures& measures) {
     return {measures.eye_height_m, measures.shoulder_width_m, measures.upper_arm_m,
             measures.forearm_m};
@@ -72,10 +84,8 @@ hh_result hh_player_add(hh_world* world, const hh_player_def* wanted, hh_player*
         description.velocity_mps = checked(def.velocity_mps, world_limits::k_max_speed_mps,
                                            "a velocity beyond 1e6 m/s, or NaN");
         description.scale = scale;
-        description.measures = read_measures(def.measures);
+        description.measures = checked_measures(def.measures, 1.0);
         description.is_measured = !is_default(def.measures);
-        require(are_measures(description.measures, 1.0), HH_ERROR_VALUE,
-                "the body's measures must lie within 0.05 to 5 m");
         checked(def.mass_kg, world_limits::k_min_mass_kg, world_limits::k_max_mass_kg,
                 "a player needs a mass within 1e-12 to 1e15 kg");
         description.head_shape = k_no_shape;
@@ -199,10 +209,8 @@ hh_result hh_player_set_measures(hh_world* world, hh_player player, const hh_mea
         hh_world& host = world_of(world);
         require(measures != nullptr, HH_ERROR_NULL, "the measures are null");
         const Entity entity = player_of(host, player);
-        const BodyMeasures given = read_measures(*measures);
-        require(are_measures(given, host.world.player_origin.at(entity).scale), HH_ERROR_VALUE,
-                "the body's measures must lie within 0.05 to 5 m times the player's scale");
-        host.world.body_measures.at(entity) = given;
+        host.world.body_measures.at(entity) =
+            checked_measures(*measures, host.world.player_origin.at(entity).scale);
         host.world.size_estimate.at(entity).is_measured = true;
     });
 }

@@ -90,20 +90,6 @@ EarlySample early_of(const TrackingSample& sample) {
     return early;
 }
 
-// Element of an array of definitions, whose elements have the size of the host's version.
-template <typename Def>
-const Def& def_at(const Def* defs, std::size_t i) {
-    return sized_element(defs, defs->struct_size, i);
-}
-
-// Reads element `i` of such an array. HH_ERROR_VERSION unless it has the size of the first.
-template <typename Def>
-Def read_def_at(const Def* defs, std::size_t i, const Def& defaults) {
-    require(def_at(defs, i).struct_size == defs->struct_size, HH_ERROR_VERSION,
-            "the elements of an array have different struct_size");
-    return read_def(&def_at(defs, i), defaults);
-}
-
 // Adds an input without commands for each player who has kept samples but no input.
 void add_silent_inputs(hh_world& host) {
     const std::size_t given = host.inputs.size();
@@ -202,6 +188,7 @@ void read_inputs(hh_world& host, double dt_s, const hh_player_input* inputs, std
                  StepKind kind) {
     checked(dt_s, k_min_step_s, k_max_step_s, "dt_s must lie in [1e-6, 10]");
     require(count == 0 || inputs != nullptr, HH_ERROR_NULL, "the inputs are null");
+    require_at_most(count, host.world.player.size(), "inputs", "players");
     host.inputs.clear();
     host.repeats_samples.clear();
     host.samples.clear();

@@ -175,10 +175,13 @@ hh_result hh_shape_add_cylinder(hh_world* world, double radius_m, double half_he
 
 hh_result hh_shape_add_hull(hh_world* world, const hh_vec3* points, size_t count, hh_shape* shape) {
     return add_shape(world, shape, [&](hh_world& host) {
-        require(points != nullptr, HH_ERROR_NULL, "the points are null");
         constexpr std::size_t k_max_points = std::size_t{1} << 20U;
-        require(count >= 4 && count <= k_max_points, HH_ERROR_VALUE,
-                "a hull needs 4 to 2^20 points");
+        // Other languages pass an empty array as null.
+        require(count >= 4 && count <= k_max_points, HH_ERROR_VALUE, [&] {
+            return (count == 0 ? "no points" : std::to_string(count) + " points") +
+                   ": a hull needs 4 to 2^20";
+        });
+        require(points != nullptr, HH_ERROR_NULL, "the points are null");
         std::vector<Vec3> corners;
         for (std::size_t i = 0; i < count; ++i) {
             corners.push_back(checked(points[i], k_max_position_m, "a point beyond 1e7 m, or NaN"));
@@ -190,8 +193,11 @@ hh_result hh_shape_add_hull(hh_world* world, const hh_vec3* points, size_t count
 hh_result hh_shape_add_compound(hh_world* world, const hh_compound_part* parts, size_t count,
                                 hh_shape* shape) {
     return add_shape(world, shape, [&](hh_world& host) {
+        require(count >= 1 && count <= k_max_parts, HH_ERROR_VALUE, [&] {
+            return (count == 0 ? "no parts" : std::to_string(count) + " parts") +
+                   ": a compound has 1 to 64";
+        });
         require(parts != nullptr, HH_ERROR_NULL, "the parts are null");
-        require(count >= 1 && count <= k_max_parts, HH_ERROR_VALUE, "a compound has 1 to 64 parts");
         std::vector<CompoundChild> children;
         for (std::size_t i = 0; i < count; ++i) {
             const ShapeId part = shape_of(host, parts[i].shape);

@@ -122,12 +122,14 @@ void collect_velocity_changes(hh_world& host) {
 void read_solved(hh_world& host, const hh_solved_player* players, std::size_t count) {
     require(host.is_stepping, HH_ERROR_STATE, "no step has begun: hh_world_begin_step comes first");
     require(count == 0 || players != nullptr, HH_ERROR_NULL, "the players are null");
+    require_at_most(count, host.world.player.size(), "solved players", "players");
     std::vector<SolvedPlayer>& solved = host.solved_players;
     solved.clear();
     for (std::size_t i = 0; i < count; ++i) {
         const Entity player = player_of(host, players[i].player);
         require(std::ranges::find(solved, player, &SolvedPlayer::player) == solved.end(),
-                HH_ERROR_VALUE, "a player is there twice");
+                HH_ERROR_VALUE,
+                [&] { return "solved player " + std::to_string(i) + ": it is there twice"; });
         solved.push_back({player,
                           checked(players[i].origin, world_limits::k_max_coordinate_m,
                                   "a position beyond 1e9 m, or NaN"),

@@ -1,8 +1,6 @@
 // Tuning and statistics of the C interface (handhold/world.h).
 #include <algorithm>
-#include <array>
 #include <cstddef>
-#include <cstdio>
 #include <numeric>
 #include <string>
 #include <string_view>
@@ -36,16 +34,10 @@ void write_components(SupportFollow& field, const double* values) {
 }
 void write_components(Vec3& field, const double* values) { field = Vec3(values); }
 
-std::string shown(double number) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%g", number);
-    return text.data();
-}
-
 void require_in_range(const TuningInfo& info, double value) {
     require(value >= info.low && value <= info.high, HH_ERROR_VALUE, [&] {
-        return std::string(info.name) + " must lie in [" + shown(info.low) + ", " +
-               shown(info.high) + "]";
+        return std::string(info.name) + " must lie in [" + number_text(info.low) + ", " +
+               number_text(info.high) + "], not be " + number_text(value);
     });
 }
 

@@ -152,6 +152,7 @@ struct hh_world {
     std::vector<handhold::BodyVelocity>
         begun_velocities;  // velocities before hh_world_begin_step, indexed like the column
     std::vector<std::uint8_t> are_placed;  // 1: placed since then; indexed like the column
+    std::vector<std::uint8_t> is_there;    // scratch of hh_world_place_bodies, indexed like it
 };
 // NOLINTEND(readability-identifier-naming)
 

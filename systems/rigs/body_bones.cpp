@@ -13,9 +13,10 @@ constexpr std::array k_sides = {HandSide::left, HandSide::right};
 // Finds bones by the map, by names and by shape.
 class BoneFinder {
   public:
-    BoneFinder(const SkinnedMesh& figure, const BodyBones& mapped)
+    BoneFinder(const SkinnedMesh& figure, const BodyBones& mapped, const char* names)
         : figure_(figure),
           mapped_(mapped),
+          names_(names),
           tree_(figure),
           prefix_(shared_name_prefix(figure)),
           bones_(mapped) {
@@ -38,7 +39,7 @@ class BoneFinder {
         if (what_is_wrong(bones_).empty()) {
             return bones_;
         }
-        return FileError{figure_.file, "/nodes", wrong + "; a map can name the joints"};
+        return FileError{figure_.file, "/nodes", wrong + "; " + names_ + " can name the joints"};
     }
 
   private:
@@ -247,6 +248,7 @@ class BoneFinder {
 
     const SkinnedMesh& figure_;
     const BodyBones& mapped_;
+    const char* const names_;
     JointTree tree_;
     std::string prefix_;
     BodyBones bones_;
@@ -364,8 +366,9 @@ Result<BodyBones> find_mapped_bones(const SkinnedMesh& figure, const BodyMap& ma
     return bones;
 }
 
-Result<BodyBones> find_body_bones(const SkinnedMesh& figure, const BodyBones& mapped) {
-    return BoneFinder(figure, mapped).find();
+Result<BodyBones> find_body_bones(const SkinnedMesh& figure, const BodyBones& mapped,
+                                  const char* names) {
+    return BoneFinder(figure, mapped, names).find();
 }
 
 }  // namespace handhold

@@ -386,8 +386,9 @@ Result<BodyRig> fit_body_rig(const SkinnedMesh& figure, const BodyMap& map) {
     return mapped ? fit_body_rig_with(figure, mapped.value()) : mapped.error();
 }
 
-Result<BodyRig> fit_body_rig_with(const SkinnedMesh& figure, const BodyBones& mapped) {
-    const Result<BodyBones> bones = find_body_bones(figure, mapped);
+Result<BodyRig> fit_body_rig_with(const SkinnedMesh& figure, const BodyBones& mapped,
+                                  const char* names) {
+    const Result<BodyBones> bones = find_body_bones(figure, mapped, names);
     if (!bones) {
         return bones.error();
     }

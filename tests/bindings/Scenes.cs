@@ -98,6 +98,12 @@ internal static unsafe class Scenes {
         } catch (HandholdException error) {
             Require(error.Result == Result.ErrorValue && error.Message.Length > 20, "errors have texts");
         }
+        try {
+            world.ShapeAddHull(new Vec3[0]);
+            Require(false, "an empty hull is refused");
+        } catch (HandholdException error) {
+            Require(error.Result == Result.ErrorValue && error.Message.Contains("no points"), "an empty array is not null: " + error.Message);
+        }
         Require(world.Hash() == before, "reading changes nothing");
     }
 

@@ -10,7 +10,8 @@ sys.path.insert(0, str(BINDINGS))
 import read_headers  # noqa: E402
 
 PLANTED = """
-#define HH_LEG_COUNT 2
+#define HH_LEG_COUNT 2 /* of a person */
+#define HH_NO_LEG 0xffffffffu
 typedef enum hh_result { HH_OK = 0 } hh_result;
 typedef struct hh_leg { double length_m; } hh_leg;
 /* DOC */
@@ -18,13 +19,18 @@ HH_API hh_result hh_walk(PARAMETERS);
 """
 
 
-def roles(doc: str, parameters: str) -> list:
+def planted(doc: str, parameters: str) -> read_headers.Description:
     description = read_headers.Description()
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "planted.h"
         path.write_text(PLANTED.replace("DOC", doc).replace("PARAMETERS", parameters), encoding="utf-8")
         read_headers.Reader(read_headers.tokens_of(path, description.constants), description).read()
     read_headers.Purposes(description).add()
+    return description
+
+
+def roles(doc: str, parameters: str) -> list:
+    description = planted(doc, parameters)
     return [(one["role"], one["length"]) if "length" in one else one["role"] for one in description.functions[0]["params"]]
 
 
@@ -37,6 +43,9 @@ class Generator(unittest.TestCase):
         both = "const hh_leg* from, hh_leg* to"
         self.assertEqual(roles("`from`: HH_LEG_COUNT elements.", both), [("array", 2), "out"])
         self.assertEqual(roles("`from`: HH_LEG_COUNT elements. `to`: HH_LEG_COUNT elements.", both), [("array", 2), ("out_array", 2)])
+
+    def test_numbers_of_macros(self):
+        self.assertEqual(planted("Walks.", "double pace_m").constants, [{"name": "HH_LEG_COUNT", "value": 2}, {"name": "HH_NO_LEG", "value": 2**32 - 1}])
 
     def test_unclear_pointers_are_errors(self):
         for doc in ("Walks.", "HH_LEG_COUNT elements.", "`arms`: HH_LEG_COUNT elements.", "`legs`: HH_ARM_COUNT elements."):
@@ -65,10 +74,19 @@ class Generator(unittest.TestCase):
     def test_every_call_in_csharp_keeps_its_objects(self):
         text = (BINDINGS / "csharp/Handhold.g.cs").read_text(encoding="utf-8")
         methods = re.findall(r"\n        public unsafe .*?\n        }", text.partition("public partial class World")[2], re.DOTALL)
-        self.assertGreater(len(methods), 80)
+        self.assertGreater(len(methods), 100)
         for method in methods:
             for used in {"this"} | set(re.findall(r"(\w+)\.Handle\b", method)):
                 self.assertIn(f"GC.KeepAlive({used});", method)
+
+    def test_every_function_of_a_match_is_a_method(self):
+        description = read_headers.read(BINDINGS.parent / "include")
+        functions = [one["name"] for one in description.functions if one["name"].startswith("hh_match_")]
+        self.assertGreater(len(functions), 20)
+        made_by_hand = {"hh_match_create", "hh_match_destroy"}
+        for path, start in (("csharp/Handhold.g.cs", "public partial class Match {"), ("python/handhold/_generated.py", "class MatchCalls:")):
+            methods = (BINDINGS / path).read_text(encoding="utf-8").partition(start)[2]
+            self.assertEqual([name for name in functions if name not in made_by_hand and f"{name}(" not in methods], [], path)
 
 
 if __name__ == "__main__":

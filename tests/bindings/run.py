@@ -4,7 +4,7 @@
 usage: tests/bindings/run.py generated|layouts|python|csharp|javascript BUILD WORK     WORK: a folder of its own, emptied first
     generated   the generated files are what the headers say, and unclear headers are errors
     layouts     C compilers agree with handhold.json on every size, offset and value: this machine's, and clang's for wasm32
-    python      the Python binding gets the state hashes of C programs that make the same calls
+    python      the Python binding gets the state hashes of C programs that make the same calls, and plays matches
     csharp      the C# binding does, under Mono; the Unity package compiles against stand-ins of Unity's types
     javascript  the JavaScript binding keeps its views, callbacks and arrays, against a library of JavaScript functions
 Exit status 0: it does, 77: Mono, numpy or another program is missing
@@ -114,7 +114,8 @@ def check_python(library: Path, work: Path) -> None:
         skip("numpy of this Python")
     environment = dict(os.environ, PYTHONPATH=str(BINDINGS / "python"), HANDHOLD_LIBRARY=str(library))
     compare(expected_lines(library, work), run(sys.executable, "-B", HERE / "scenes.py", env=environment))
-    print(run(sys.executable, "-B", HERE / "python_test.py", env=environment))
+    for name in ("python_test.py", "match_test.py"):
+        print(run(sys.executable, "-B", HERE / name, env=environment))
     check_licenses("python", library, work)
 
 
@@ -124,10 +125,11 @@ def check_csharp(library: Path, work: Path) -> None:
             skip(f"Mono's {program}")
     environment = dict(os.environ, LD_LIBRARY_PATH=str(library.parent))
     sources = sorted((BINDINGS / "csharp").glob("*.cs"))
-    for name in ("Scenes", "Lifetimes"):
+    for name in ("Scenes", "Lifetimes", "Matches"):
         run("mcs", "-unsafe", "-warnaserror", f"-out:{work}/{name}.exe", *sources, HERE / f"{name}.cs")
     compare(expected_lines(library, work), run("mono", work / "Scenes.exe", env=environment))
-    print(run("mono", work / "Lifetimes.exe", env=environment).strip())
+    for name in ("Lifetimes", "Matches"):
+        print(run("mono", work / f"{name}.exe", env=environment).strip())
     print(run("mono", work / "Lifetimes.exe", "without", env=dict(os.environ, LD_LIBRARY_PATH="")).strip())
     package = work / "unity"
     run(sys.executable, "-B", SOURCE / "packaging/assemble.py", "unity", package, "--library", library)

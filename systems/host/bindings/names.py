@@ -11,10 +11,9 @@ def pascal(c_name: str) -> str:
 
 
 def method(function: dict) -> str:
-    """hh_world_events_sized -> events, hh_body_add -> body_add."""
-    name = function["name"].removeprefix("hh_").removesuffix("_sized")
-    is_of_world = any(p.get("role") == "self" and p["type"] == "hh_world" for p in function["params"])
-    return name.removeprefix("world_") if is_of_world else name
+    """hh_world_events_sized -> events, hh_match_packet_to -> packet_to, hh_body_add -> body_add."""
+    owner = self_of(function).removeprefix("hh_")
+    return function["name"].removeprefix("hh_").removesuffix("_sized").removeprefix(f"{owner}_")
 
 
 def camel(snake: str) -> str:

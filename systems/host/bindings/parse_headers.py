@@ -40,8 +40,8 @@ def tokens_of(path: Path, constants: list) -> list[Token]:
     text = path.read_text(encoding="utf-8")
     blank = lambda found: re.sub(r"[^\n]", " ", found[0])
     text = re.sub(r"^#ifdef __cplusplus\n.*?^#endif$", blank, text, flags=re.MULTILINE | re.DOTALL)
-    for name, value in re.findall(r"^#define ((?:HH|HANDHOLD)_\w+) +(\d+|\"[^\"]*\")$", text, re.MULTILINE):
-        constants.append({"name": name, "value": value[1:-1] if value.startswith('"') else int(value)})
+    for name, value in re.findall(r"^#define ((?:HH|HANDHOLD)_\w+) +(\w+|\"[^\"]*\")(?: */\*.*\*/)?$", text, re.MULTILINE):
+        constants.append({"name": name, "value": value[1:-1] if value.startswith('"') else int(value.removesuffix("u"), 0)})
     text = re.sub(r"^#.*(?:\\\n.*)*$", lambda found: blank(found).replace(" ", "\x01"), text, flags=re.MULTILINE)
     tokens = []
     previous_line = 0

@@ -83,7 +83,7 @@ class CSharp:
         self.lines += ["", *summary(one["doc"], "    "), "    [StructLayout(LayoutKind.Sequential)]", f"    public unsafe partial struct {name} {{"]
         if has_callbacks(one, self.callbacks):
             self.lines[-2:-2] = ["    /// <remarks>For Native: keep the delegates of all functions alive while the library may call them, and make them static methods with",
-                                 "    /// MonoPInvokeCallback for IL2CPP. World.SetSurfaces and Library.SetLog do both.</remarks>"]
+                                 "    /// MonoPInvokeCallback for IL2CPP. World.SetSurfaces, Match and Library.SetLog do both.</remarks>"]
         for part in one["fields"]:
             self.lines += [*summary(part.get("doc", ""), "        "), f"        public {self.field_type(part)} {safe(part['name'])};"]
         default = next((f["name"] for f in self.description.functions if f.get("default_of") == one["name"]), "")
@@ -249,7 +249,10 @@ class CSharp:
             element, out = next(one.split()[1:] for one in lists if one.startswith("LIST"))
             counter = next(one.split()[1] for one in lists if one.startswith("COUNT"))
             body += [invoke("null", "UIntPtr.Zero"), f"{element}[] made = new {element}[(long){counter}];",
-                     f"fixed ({element}* made_at = made) {{ {invoke('made_at', counter)} }}", f"{out} = made;"]
+                     f"fixed ({element}* made_at = made) {{ {invoke('made_at', counter)} }}"]
+            if element == "byte":  # a packet may be shorter than the most that the first call said
+                body.append(f"Array.Resize(ref made, (int){counter});")
+            body.append(f"{out} = made;")
         elif is_checked or returns["type"] == "void":
             body.append(invoke())
         else:
@@ -286,7 +289,7 @@ class CSharp:
                       "using System.Runtime.InteropServices;", "", "#pragma warning disable 660, 661, 1591", "", "namespace Handhold {"]
         self.lines += ["    /// <summary>Numbers of the C headers.</summary>", "    public static class Constants {"]
         for one in d.constants:
-            kind, value = ("string", f'"{one["value"]}"') if isinstance(one["value"], str) else ("int", one["value"])
+            kind, value = ("string", f'"{one["value"]}"') if isinstance(one["value"], str) else ("int" if one["value"] < 2**31 else "uint", one["value"])
             name = "".join(word.capitalize() for word in one["name"].removeprefix("HH_").split("_"))
             self.lines.append(f"        public const {kind} {name} = {value};")
         self.lines.append("    }")
@@ -309,9 +312,10 @@ class CSharp:
         self.lines += ["    }", "", "    public static partial class Library {"]
         for one in (f for f in d.functions if not self_of(f) and not self.is_by_hand(f)):
             self.wrapper(one)
-        self.lines += ["    }", "", "    public partial class World {"]
-        for one in (f for f in d.functions if self_of(f) == "hh_world" and not self.is_by_hand(f)):
-            self.wrapper(one)
+        for owner in ("hh_world", "hh_match"):
+            self.lines += ["    }", "", f"    public partial class {type_name(owner)} {{"]
+            for one in (f for f in d.functions if self_of(f) == owner and not self.is_by_hand(f)):
+                self.wrapper(one)
         self.lines += ["    }", "}"]
         return "\n".join(self.lines) + "\n"
 

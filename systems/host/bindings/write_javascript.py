@@ -87,9 +87,8 @@ class JavaScript:
 
     @staticmethod
     def method(function: dict) -> str:
-        """hh_match_packet_to -> packetTo: matches are objects of their own."""
-        name = method(function)
-        return camel(name.removeprefix("match_") if self_of(function) == "hh_match" else name)
+        """hh_match_packet_to -> packetTo."""
+        return camel(method(function))
 
     def wrapped(self) -> list:
         return [one for one in self.description.functions if not is_raw_only(one) and self_of(one) in ("", "hh_world", "hh_match")]

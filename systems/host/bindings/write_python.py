@@ -146,8 +146,9 @@ class Python:
                 raise ValueError(f"{function['name']}: {name} has no role")
         call = f"lib().{function['name']}({', '.join(words_of_call)})"
         if is_list:
-            kind = results.pop().removeprefix("kind=")
-            return lines + [f"return listed({kind}, lambda buffer, capacity, count: {call})"]
+            kind = next(one for one in results if one.startswith("kind=")).removeprefix("kind=")
+            found = [f"listed({kind}, lambda buffer, capacity, count: {call})" if one.startswith("kind=") else one for one in results]
+            return lines + [f"return {', '.join(found)}"]
         returns = function["returns"]
         if returns["type"] == "hh_result" and returns["pointer"] == 0:
             return lines + [f"check({call})"] + kept + ([f"return {', '.join(results)}"] if results else [])
@@ -186,10 +187,12 @@ class Python:
         self.lines += ["}"]
         for one in (f for f in d.functions if not self_of(f) and not is_raw_only(f)):
             self.wrapper(one)
-        self.lines += ["", "", "class WorldCalls:", '    """Every function of a world, as a method. Calls that fail raise HandholdError and change nothing."""',
-                       "", "    _handle = None"]
-        for one in (f for f in d.functions if self_of(f) == "hh_world" and not is_raw_only(f)):
-            self.wrapper(one)
+        for owner in ("world", "match"):
+            self.lines += ["", "", f"class {pascal(owner)}Calls:",
+                           f'    """Every function of a {owner}, as a method. Calls that fail raise HandholdError and change nothing."""',
+                           "", "    _handle = None"]
+            for one in (f for f in d.functions if self_of(f) == f"hh_{owner}" and not is_raw_only(f)):
+                self.wrapper(one)
         return "\n".join(self.lines) + "\n"
 
 

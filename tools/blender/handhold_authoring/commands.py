@@ -26,7 +26,8 @@ def program() -> str:
     found = (bpy.path.abspath(given.program) if given and given.program else "") or os.environ.get("HANDHOLD_PROGRAM") \
         or (str(beside) if beside.is_file() else None) or shutil.which("handhold")
     if not found:
-        raise Refused("the program handhold is not there: name it in the add-on's preferences")
+        raise Refused("the program handhold is not there: in Handhold's sources, `cmake --preset release && cmake --build --preset release --target "
+                      "handhold` builds build/release/bin/handhold; then name that file in the add-on's preferences")
     return found
 
 

@@ -1,5 +1,6 @@
 // Handhold in C#: what is not generated. Ownership of worlds and meshes, errors as exceptions, inputs, and surfaces of a host with physics of its
-// own. Names, units and defaults are those of the C headers; methods of a World are the functions hh_world_x as X, and hh_body_x as BodyX.
+// own; HandholdMatch.cs has matches. Names, units and defaults are those of the C headers; methods of a World are the functions hh_world_x as X,
+// and hh_body_x as BodyX.
 using System;
 using System.Runtime.ExceptionServices;
 using System.Runtime.InteropServices;
@@ -217,6 +218,7 @@ namespace Handhold {
         /// <summary>What hands ask; null: the world's shapes.</summary>
         public ISurfaces Surfaces { get; private set; }
         private GCHandle surfacesHandle;  // weak: surfaces that know their world do not keep it
+        internal Match Match;             // null: the world is in none
 
         public World() : this(WorldDef.Default()) { }
         public World(WorldDef def) {
@@ -225,14 +227,20 @@ namespace Handhold {
             Library.Check(Native.hh_world_create(&def, &made));
             Handle = made;
         }
-        /// <summary>Destroys the world. Not inside a callback: Result.ErrorState.</summary>
+        /// <summary>Destroys the world. Not inside a callback or in a match: Result.ErrorState.</summary>
         public void Dispose() {
             Library.RefuseInCallback("a world");
+            if (Match != null) {
+                throw new HandholdException(Result.ErrorState, "HH_ERROR_STATE: a world cannot be disposed while it is in a match: dispose the match first");
+            }
             Destroy();
             GC.SuppressFinalize(this);
         }
         ~World() { Destroy(); }
         private void Destroy() {
+            if (Match != null) {  // the collector may finalize the world before its match
+                Match.Destroy();
+            }
             if (Handle != IntPtr.Zero) {
                 Native.hh_world_destroy(Handle);
                 Handle = IntPtr.Zero;

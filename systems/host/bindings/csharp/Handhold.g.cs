@@ -12,9 +12,16 @@ namespace Handhold {
         public const int HandholdVersionPatch = 0;
         public const string HandholdVersionText = "0.2.0";
         public const int HandJointCount = 26;
+        public const int IsByName = 0;
         public const int IsBody = 100;
         public const int IsLeftHand = 200;
         public const int IsRightHand = 300;
+        public const int MatchPlayers = 16;
+        public const int MatchPacketBytes = 1200;
+        public const int MatchInputsBytes = 8192;
+        public const uint MatchNoSlot = 4294967295;
+        public const int MatchPlaces = 64;
+        public const int MatchRefusals = 16;
     }
 
     public enum Result {
@@ -426,7 +433,7 @@ namespace Handhold {
 
     /// <summary>Functions of the host that the library uses. Null functions are not called; without parallel_for the library has its own threads. Memory comes from the global operator new, which a program may replace as usual; the shared library and the standard library inside it then use the replacement too, once per process. Apart from that a world's blocks are taken and given back by the threads that call it, and by those of parallel_for: a replacement with an arena a thread gives each world its own. A host that uses Bullet needs its double-precision build, and sets btAlignedAllocSetCustom before the first world.</summary>
     /// <remarks>For Native: keep the delegates of all functions alive while the library may call them, and make them static methods with
-    /// MonoPInvokeCallback for IL2CPP. World.SetSurfaces and Library.SetLog do both.</remarks>
+    /// MonoPInvokeCallback for IL2CPP. World.SetSurfaces, Match and Library.SetLog do both.</remarks>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct HostHooks {
         public uint struct_size;
@@ -984,7 +991,7 @@ namespace Handhold {
 
     /// <summary>Queries against the host's surfaces. Each returns true if it found something, and then fills `hit`. `skip`: bodies that count as not there. Called only inside hh_world_step, _step_hands, _begin_step, _end_step, _step_pose_only and hh_hand_find_grip of this world, by the thread that made that call. A query may read the world; calls that change it return HH_ERROR_STATE. Per player and frame: about 3 queries, up to 50 when a hand closes behind walls or among bodies.</summary>
     /// <remarks>For Native: keep the delegates of all functions alive while the library may call them, and make them static methods with
-    /// MonoPInvokeCallback for IL2CPP. World.SetSurfaces and Library.SetLog do both.</remarks>
+    /// MonoPInvokeCallback for IL2CPP. World.SetSurfaces, Match and Library.SetLog do both.</remarks>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct SurfaceQuery {
         public uint struct_size;
@@ -1104,7 +1111,7 @@ namespace Handhold {
 
     /// <summary>Your own state of the match, such as scores and doors' codes, which goes back and forth with the world's. Null functions are not called; `save` and `restore` come together. Inside of them no function of the match may be called, and none that steps, restores or destroys the world.</summary>
     /// <remarks>For Native: keep the delegates of all functions alive while the library may call them, and make them static methods with
-    /// MonoPInvokeCallback for IL2CPP. World.SetSurfaces and Library.SetLog do both.</remarks>
+    /// MonoPInvokeCallback for IL2CPP. World.SetSurfaces, Match and Library.SetLog do both.</remarks>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct MatchGame {
         public uint struct_size;
@@ -2086,7 +2093,7 @@ namespace Handhold {
 
     public partial class World {
 
-        /// <summary>Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player; players without one are silent. Bad samples are ignored and counted; numbers in commands that are out of range are clamped. Cost: 0.05 ms a player who crawls, 0.15 ms one who climbs all the time, and up to 4 ms in the frame in which a hand closes: docs/guide/cost.md.</summary>
+        /// <summary>Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player, else HH_ERROR_VALUE; players without one are silent. Bad samples are ignored and counted; numbers in commands that are out of range are clamped. Cost: 0.05 ms a player who crawls, 0.15 ms one who climbs all the time, and up to 4 ms in the frame in which a hand closes: docs/guide/cost.md.</summary>
         public unsafe void Step(double dt_s, PlayerInput[] inputs) {
             fixed (PlayerInput* inputs_at = inputs) {
                 Library.Check(Native.hh_world_step(Handle, dt_s, inputs_at, Library.Count(inputs)));
@@ -2177,6 +2184,7 @@ namespace Handhold {
             Library.Check(Native.hh_world_save(Handle, null, UIntPtr.Zero, &size_at));
             byte[] made = new byte[(long)size_at];
             fixed (byte* made_at = made) { Library.Check(Native.hh_world_save(Handle, made_at, size_at, &size_at)); }
+            Array.Resize(ref made, (int)size_at);
             buffer = made;
             GC.KeepAlive(this);
             return buffer;
@@ -3048,7 +3056,7 @@ namespace Handhold {
             GC.KeepAlive(this);
         }
 
-        /// <summary>Where bodies are now, after the host's own step. Unlike a teleport it ends no grip. A kinematic body rests there until hh_body_move_kinematic says where it will be at the end of the next step. Places all or, on an error, none.</summary>
+        /// <summary>Where bodies are now, after the host's own step. Unlike a teleport it ends no grip. A kinematic body rests there until hh_body_move_kinematic says where it will be at the end of the next step. Places all or, on an error, none. HH_ERROR_VALUE for a body that is there twice.</summary>
         public unsafe void PlaceBodies(BodyMotion[] motions) {
             fixed (BodyMotion* motions_at = motions) {
                 Library.Check(Native.hh_world_place_bodies(Handle, motions_at, Library.Count(motions)));
@@ -3121,7 +3129,7 @@ namespace Handhold {
             return motions;
         }
 
-        /// <summary>Second half, after the host's solver. `players`: the solved play spaces; one left out moves as predicted. Bodies that the host has not placed since hh_world_begin_step rest where they were. Releases grips, limits velocities and shows hands and bodies. On an error the step stays begun.</summary>
+        /// <summary>Second half, after the host's solver. `players`: the solved play spaces; one left out moves as predicted, HH_ERROR_VALUE for one that is there twice. Bodies that the host has not placed since hh_world_begin_step rest where they were. Releases grips, limits velocities and shows hands and bodies. On an error the step stays begun.</summary>
         public unsafe void EndStep(SolvedPlayer[] players) {
             fixed (SolvedPlayer* players_at = players) {
                 Library.Check(Native.hh_world_end_step(Handle, players_at, Library.Count(players)));
@@ -3152,6 +3160,221 @@ namespace Handhold {
             bodies = made;
             GC.KeepAlive(this);
             return bodies;
+        }
+    }
+
+    public partial class Match {
+
+        /// <summary>How often to call hh_match_advance for so much time of the local clock since the last call, [0, 8]: a little more or less than its share, so that inputs reach the server just before they are needed. A spectator stays 9 ticks behind what has come.</summary>
+        public unsafe uint TicksDue(double elapsed_s) {
+            uint ticks;
+            uint ticks_at;
+            Library.Check(Native.hh_match_ticks_due(Handle, elapsed_s, &ticks_at));
+            ticks = ticks_at;
+            GC.KeepAlive(this);
+            return ticks;
+        }
+
+        /// <summary>Goes back to the first wrong guess, if there is one, steps again to the present, and then one tick on. `input`, not null. `advanced` gets false, and the input is dropped, while the world is 62 ticks ahead of what is confirmed. Cost: a step, and a quarter of one for each tick stepped again: docs/reference/matches.md has figures. A spectator steps the next confirmed tick, or gets false if its inputs have not come; of `input` it takes only is_hidden.</summary>
+        public unsafe bool Advance(MatchInput input) {
+            bool advanced;
+            byte advanced_at;
+            Library.Check(Native.hh_match_advance(Handle, &input, &advanced_at));
+            advanced = advanced_at != 0;
+            GC.KeepAlive(this);
+            return advanced;
+        }
+
+        /// <summary>Takes a packet of the server; a spectator those of hh_match_confirmed_inputs. HH_ERROR_DATA, and no change, for bytes that are damaged or not of this match. Packets that came too late or out of order are HH_OK: what they lack comes again. Both are counted in hh_match_stats.refused. Tolerates any bytes.</summary>
+        public unsafe void Receive(byte[] packet) {
+            fixed (byte* packet_at = packet) {
+                Library.Check(Native.hh_match_receive(Handle, packet_at, Library.Count(packet)));
+                GC.KeepAlive(this);
+            }
+        }
+
+        /// <summary>Clients only. Writes the next packet to the server, `size` bytes. Call once a tick or once in two. A null `buffer` asks for the most bytes that a packet has, HH_MATCH_PACKET_BYTES; HH_ERROR_CAPACITY for a smaller `capacity`.</summary>
+        public unsafe byte[] Packet() {
+            byte[] buffer;
+            UIntPtr size_at;
+            Library.Check(Native.hh_match_packet(Handle, null, UIntPtr.Zero, &size_at));
+            byte[] made = new byte[(long)size_at];
+            fixed (byte* made_at = made) { Library.Check(Native.hh_match_packet(Handle, made_at, size_at, &size_at)); }
+            Array.Resize(ref made, (int)size_at);
+            buffer = made;
+            GC.KeepAlive(this);
+            return buffer;
+        }
+
+        /// <summary>Replaces the world's state by the one of hh_match_state, over a reliable stream of yours. Set your own state to the server's of the same tick before the next hh_match_advance. HH_ERROR_DATA, and no change, for other bytes. Tolerates any bytes.</summary>
+        public unsafe void Join(byte[] bytes) {
+            fixed (byte* bytes_at = bytes) {
+                Library.Check(Native.hh_match_join(Handle, bytes_at, Library.Count(bytes)));
+                GC.KeepAlive(this);
+            }
+        }
+
+        /// <summary>Somebody plays the slot, or nobody does: then its hands let go and its body floats. At first nobody plays any slot.</summary>
+        public unsafe void Connect(uint slot) {
+            Library.Check(Native.hh_match_connect(Handle, slot));
+            GC.KeepAlive(this);
+        }
+
+        public unsafe void Disconnect(uint slot) {
+            Library.Check(Native.hh_match_disconnect(Handle, slot));
+            GC.KeepAlive(this);
+        }
+
+        /// <summary>Takes a packet that came from that slot's player, at `now_s` on the server's clock. As hh_match_receive; a packet of another slot is HH_ERROR_DATA. The checksum in it finds damage, not forgery: your transport authenticates.</summary>
+        public unsafe void ReceiveFrom(uint slot, double now_s, byte[] packet) {
+            fixed (byte* packet_at = packet) {
+                Library.Check(Native.hh_match_receive_from(Handle, slot, now_s, packet_at, Library.Count(packet)));
+                GC.KeepAlive(this);
+            }
+        }
+
+        /// <summary>Confirms and steps the ticks whose inputs are complete, or which have ended on the server's clock; missing inputs are filled by a guess that all machines share. At most 16 a call; `ticks` gets the number. Call several times a tick. Null output: skipped.</summary>
+        public unsafe uint Confirm(double now_s) {
+            uint ticks;
+            uint ticks_at;
+            Library.Check(Native.hh_match_confirm(Handle, now_s, &ticks_at));
+            ticks = ticks_at;
+            GC.KeepAlive(this);
+            return ticks;
+        }
+
+        /// <summary>Writes the next packet to that slot's player. As hh_match_packet.</summary>
+        public unsafe byte[] PacketTo(uint slot) {
+            byte[] buffer;
+            UIntPtr size_at;
+            Library.Check(Native.hh_match_packet_to(Handle, slot, null, UIntPtr.Zero, &size_at));
+            byte[] made = new byte[(long)size_at];
+            fixed (byte* made_at = made) { Library.Check(Native.hh_match_packet_to(Handle, slot, made_at, size_at, &size_at)); }
+            Array.Resize(ref made, (int)size_at);
+            buffer = made;
+            GC.KeepAlive(this);
+            return buffer;
+        }
+
+        /// <summary>Writes the state that a player joins with, `size` bytes, for hh_match_join; send your own state of this tick with it. From now on the player is sent the inputs after it. As hh_world_save; with a null `buffer` nothing changes. HH_MATCH_NO_SLOT: the state for a spectator, who is sent the confirmed inputs after the present tick.</summary>
+        public unsafe byte[] State(uint slot) {
+            byte[] buffer;
+            UIntPtr size_at;
+            Library.Check(Native.hh_match_state(Handle, slot, null, UIntPtr.Zero, &size_at));
+            byte[] made = new byte[(long)size_at];
+            fixed (byte* made_at = made) { Library.Check(Native.hh_match_state(Handle, slot, made_at, size_at, &size_at)); }
+            Array.Resize(ref made, (int)size_at);
+            buffer = made;
+            GC.KeepAlive(this);
+            return buffer;
+        }
+
+        /// <summary>Steps one tick with an input for each slot, then goes back sync_ticks and steps again.</summary>
+        public unsafe MatchDifference SyncTest(MatchInput[] inputs) {
+            MatchDifference difference;
+            MatchDifference difference_at;
+            fixed (MatchInput* inputs_at = inputs) {
+                Library.Check(Native.hh_match_sync_test(Handle, inputs_at, Library.Count(inputs), &difference_at));
+                difference = difference_at;
+                GC.KeepAlive(this);
+            }
+            return difference;
+        }
+
+        /// <summary>Writes the inputs of all slots in the confirmed ticks after `after`, for hh_match_receive of spectators: over a reliable stream of yours, or into a file, which then has the whole match. `until` gets the last tick written, `after` if there is nothing new: 128 ticks at most, and fewer if the buffer is full. Every 90th tick carries its hash, which the reader compares. HH_ERROR_VALUE if `after` is later than what is confirmed, or too early: 320 ticks are always kept, at most 448. A spectator then needs a state. A null `buffer` asks for HH_MATCH_INPUTS_BYTES; HH_ERROR_CAPACITY for less.</summary>
+        public unsafe void ConfirmedInputs(ulong after, out byte[] buffer, out ulong until) {
+            UIntPtr size_at;
+            ulong until_at;
+            Library.Check(Native.hh_match_confirmed_inputs(Handle, after, null, UIntPtr.Zero, &size_at, &until_at));
+            byte[] made = new byte[(long)size_at];
+            fixed (byte* made_at = made) { Library.Check(Native.hh_match_confirmed_inputs(Handle, after, made_at, size_at, &size_at, &until_at)); }
+            Array.Resize(ref made, (int)size_at);
+            buffer = made;
+            until = until_at;
+            GC.KeepAlive(this);
+        }
+
+        /// <summary>A player needs hh_match_state and hh_match_join: the world differs from the server's, or inputs are lost for good. A client answers for its own slot only, a spectator for any.</summary>
+        public unsafe bool NeedsState(uint slot) {
+            bool needs;
+            byte needs_at;
+            Library.Check(Native.hh_match_needs_state(Handle, slot, &needs_at));
+            needs = needs_at != 0;
+            GC.KeepAlive(this);
+            return needs;
+        }
+
+        /// <summary>Hash of world and game after a tick: equal on all machines if the tick is confirmed. HH_ERROR_VALUE unless it is the present one or, on a client, one of the 63 before that it has stepped.</summary>
+        public unsafe ulong Hash(ulong tick) {
+            ulong hash;
+            ulong hash_at;
+            Library.Check(Native.hh_match_hash(Handle, tick, &hash_at));
+            hash = hash_at;
+            GC.KeepAlive(this);
+            return hash;
+        }
+
+        /// <summary>Add these to the drawn positions of a slot's player, so that a corrected guess moves them within 0.08 s and not at once: to head and body, and to each hand with what it holds. m, world axes. For the own slot `head` is for the view too, with hands that hold nothing: it moves when others pull at what you hold. Only for pictures. Zero for servers, spectators and sync tests.</summary>
+        public unsafe void ShownOffsets(uint slot, out Vec3 head, out Vec3 left, out Vec3 right) {
+            Vec3 head_at;
+            Vec3 left_at;
+            Vec3 right_at;
+            Library.Check(Native.hh_match_shown_offsets(Handle, slot, &head_at, &left_at, &right_at));
+            head = head_at;
+            left = left_at;
+            right = right_at;
+            GC.KeepAlive(this);
+        }
+
+        /// <summary>Where to draw a slot's player between two ticks, for displays of another rate than the tick's: at the time up to which hh_match_ticks_due has been called, less one tick, which lies between the last two shown ticks. Call after the ticks of a picture. With hh_match_shown_offsets already. World poses: `origin` is the space of the samples, for the camera rig; `head`; and wrists to draw. A play space that moves by more than 0.5 m or turns by more than 0.2 rad at once, as by a teleport or a snap turn, is not drawn in between. While the world waits, everything stands still. `newest`, for the own slot: the devices at the time of the picture, of any time_s. Head and empty hands are then drawn where they are, and not late. Null: between ticks, as everything else. Fingers go with their wrist; arms, spine and legs with the head. Never changes the world. HH_ERROR_VALUE if `newest` is given for another slot, or to a spectator. Clients and spectators. HH_ERROR_STATE before the first shown tick, and after hh_match_join.</summary>
+        public unsafe void DrawnPlayer(uint slot, TrackingSample? newest, out HhPose origin, out HhPose head, out HhPose left, out HhPose right) {
+            TrackingSample newest_at = newest.GetValueOrDefault();
+            HhPose origin_at;
+            HhPose head_at;
+            HhPose left_at;
+            HhPose right_at;
+            Library.Check(Native.hh_match_drawn_player(Handle, slot, newest.HasValue ? &newest_at : null, &origin_at, &head_at, &left_at, &right_at));
+            origin = origin_at;
+            head = head_at;
+            left = left_at;
+            right = right_at;
+            GC.KeepAlive(this);
+        }
+
+        /// <summary>The same for bodies: poses as of hh_world_body_poses. A body that is held goes with its hands; one that moves by more than 0.5 m at once is not drawn in between.</summary>
+        public unsafe HhPose[] DrawnBodies(Body[] bodies) {
+            HhPose[] poses;
+            HhPose[] poses_made = new HhPose[(int)Library.Count(bodies)];
+            fixed (Body* bodies_at = bodies) {
+                fixed (HhPose* poses_at = poses_made) {
+                    Library.Check(Native.hh_match_drawn_bodies(Handle, bodies_at, Library.Count(bodies), poses_at));
+                    poses = poses_made;
+                    GC.KeepAlive(this);
+                }
+            }
+            return poses;
+        }
+
+        /// <summary>What the last hh_match_advance, hh_match_confirm, hh_match_join or hh_match_sync_test found, in the order of finding. Servers and sync tests have confirmed events only. Valid until the next call of these or of this function. `event_size`: bytes of hh_match_event as the host knows it; the list's elements lie so far apart.</summary>
+        public unsafe MatchEvent[] Events() {
+            MatchEvent[] events;
+            MatchEvent* events_at;
+            UIntPtr count_at;
+            Library.Check(Native.hh_match_events_sized(Handle, &events_at, &count_at, (UIntPtr)sizeof(MatchEvent)));
+            MatchEvent[] made = new MatchEvent[(long)count_at];
+            for (long i = 0; i < made.LongLength; ++i) made[i] = events_at[i];
+            events = made;
+            GC.KeepAlive(this);
+            return events;
+        }
+
+        public unsafe MatchStats GetStats() {
+            MatchStats stats;
+            MatchStats stats_at = MatchStats.Default();
+            Library.Check(Native.hh_match_get_stats(Handle, &stats_at));
+            stats = stats_at;
+            GC.KeepAlive(this);
+            return stats;
         }
     }
 }

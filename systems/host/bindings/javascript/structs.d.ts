@@ -12,9 +12,16 @@ export declare const HANDHOLD_VERSION_MINOR: 2;
 export declare const HANDHOLD_VERSION_PATCH: 0;
 export declare const HANDHOLD_VERSION_TEXT: "0.2.0";
 export declare const HH_HAND_JOINT_COUNT: 26;
+export declare const HH_IS_BY_NAME: 0;
 export declare const HH_IS_BODY: 100;
 export declare const HH_IS_LEFT_HAND: 200;
 export declare const HH_IS_RIGHT_HAND: 300;
+export declare const HH_MATCH_PLAYERS: 16;
+export declare const HH_MATCH_PACKET_BYTES: 1200;
+export declare const HH_MATCH_INPUTS_BYTES: 8192;
+export declare const HH_MATCH_NO_SLOT: 4294967295;
+export declare const HH_MATCH_PLACES: 64;
+export declare const HH_MATCH_REFUSALS: 16;
 export declare const HH_OK: 0;
 /** a pointer that is needed is null */
 export declare const HH_ERROR_NULL: 1;
@@ -885,7 +892,7 @@ export declare class LibraryCalls {
 
 /** Every function of a world, as a method. They throw a HandholdError if the library refuses the call. */
 export declare class WorldCalls {
-    /** Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player; players without one are silent. Bad samples are ignored and counted; numbers in commands that are out of range are clamped. Cost: 0.05 ms a player who crawls, 0.15 ms one who climbs all the time, and up to 4 ms in the frame in which a hand closes: docs/guide/cost.md. */
+    /** Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player, else HH_ERROR_VALUE; players without one are silent. Bad samples are ignored and counted; numbers in commands that are out of range are clamped. Cost: 0.05 ms a player who crawls, 0.15 ms one who climbs all the time, and up to 4 ms in the frame in which a hand closes: docs/guide/cost.md. */
     step(dt_s: number, inputs: Given<hh_player_input>[]): void;
     /** hh_world_step without fitted hands, arms, spine and legs: about a quarter of its cost. What hosts draw stays as the last other step left it: hh_player_pose with its hands, joints of hands and bodies, hh_player_push_back. Everything else changes exactly as in hh_world_step, bit for bit: hh_world_simulated_hash is equal whichever steps were shown. For rollback: step again to the present with this, and the last time with hh_world_step. Events carry the tracked hand's position. */
     stepSimulated(dt_s: number, inputs: Given<hh_player_input>[]): void;
@@ -1074,7 +1081,7 @@ export declare class WorldCalls {
     setSurfaceQuery(query: Given<hh_surface_query> | null): void;
     /** The triangles that palm and fingers close on, in the body's frame; null: none. Not needed for gripping. The body must have no shape. HH_ERROR_STATE if it has, or if the mesh or the world was made without fits_hands. */
     bodySetSurface(body: Given<hh_body>, mesh: Mesh | null): void;
-    /** Where bodies are now, after the host's own step. Unlike a teleport it ends no grip. A kinematic body rests there until hh_body_move_kinematic says where it will be at the end of the next step. Places all or, on an error, none. */
+    /** Where bodies are now, after the host's own step. Unlike a teleport it ends no grip. A kinematic body rests there until hh_body_move_kinematic says where it will be at the end of the next step. Places all or, on an error, none. HH_ERROR_VALUE for a body that is there twice. */
     placeBodies(motions: Given<hh_body_motion>[]): void;
     /** Where a player's hh_player_pose.origin is now, and its velocity, by the host's locomotion. Unlike a teleport it ends no grip. */
     playerPlace(player: Given<hh_player>, origin: Given<hh_pose>, velocity_mps: Given<hh_vec3>): void;
@@ -1090,7 +1097,7 @@ export declare class WorldCalls {
     handConstraints(): hh_hand_constraint[];
     /** One entry per player, in the order of hh_world_players. Valid until hh_world_end_step. */
     playerMotions(): hh_player_motion[];
-    /** Second half, after the host's solver. `players`: the solved play spaces; one left out moves as predicted. Bodies that the host has not placed since hh_world_begin_step rest where they were. Releases grips, limits velocities and shows hands and bodies. On an error the step stays begun. */
+    /** Second half, after the host's solver. `players`: the solved play spaces; one left out moves as predicted, HH_ERROR_VALUE for one that is there twice. Bodies that the host has not placed since hh_world_begin_step rest where they were. Releases grips, limits velocities and shows hands and bodies. On an error the step stays begun. */
     endStep(players: Given<hh_solved_player>[]): void;
     /** Velocities that the host must give its bodies: after hh_world_begin_step those of bodies that the distance grab pulls, after hh_world_end_step those of thrown and limited bodies. Players': hh_player_velocity. Valid until the next step. */
     velocityChanges(): hh_velocity_change[];

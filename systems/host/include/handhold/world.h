@@ -112,9 +112,9 @@ static inline hh_player_input hh_default_player_input(void) {
     return filled;
 }
 
-/* Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player; players
- * without one are silent. Bad samples are ignored and counted; numbers in commands that are out of
- * range are clamped. Cost: 0.05 ms a player who crawls, 0.15 ms one who climbs all the time, and up
+/* Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player, else
+ * HH_ERROR_VALUE; players without one are silent. Bad samples are ignored and counted; numbers in
+ * commands that are out of range are clamped. Cost: 0.05 ms a player who crawls, 0.15 ms one who climbs all the time, and up
  * to 4 ms in the frame in which a hand closes: docs/guide/cost.md. */
 HH_API hh_result hh_world_step(hh_world* world, double dt_s, const hh_player_input* inputs,
                                size_t input_count);

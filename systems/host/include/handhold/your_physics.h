@@ -78,7 +78,7 @@ typedef struct hh_body_motion {
 } hh_body_motion;
 /* Where bodies are now, after the host's own step. Unlike a teleport it ends no grip. A kinematic
  * body rests there until hh_body_move_kinematic says where it will be at the end of the next step.
- * Places all or, on an error, none. */
+ * Places all or, on an error, none. HH_ERROR_VALUE for a body that is there twice. */
 HH_API hh_result hh_world_place_bodies(hh_world* world, const hh_body_motion* motions,
                                        size_t count);
 /* Where a player's hh_player_pose.origin is now, and its velocity, by the host's locomotion. Unlike a
@@ -182,7 +182,7 @@ HH_API hh_result hh_world_hand_constraints(const hh_world* world,
 HH_API hh_result hh_world_player_motions(const hh_world* world, const hh_player_motion** motions,
                                          size_t* count);
 /* Second half, after the host's solver. `players`: the solved play spaces; one left out moves as
- * predicted. Bodies that the host has not placed since hh_world_begin_step rest where they were.
+ * predicted, HH_ERROR_VALUE for one that is there twice. Bodies that the host has not placed since hh_world_begin_step rest where they were.
  * Releases grips, limits velocities and shows hands and bodies. On an error the step stays
  * begun. */
 HH_API hh_result hh_world_end_step(hh_world* world, const hh_solved_player* players, size_t count);

@@ -1,14 +1,16 @@
 """Handhold in Python, for tools: the C interface with ctypes and numpy.
 
 Names, units and defaults are those of the C headers (systems/host/include/handhold). Methods of a World are the functions hh_world_x as x, and
-hh_body_x, hh_player_x and the others as body_x, player_x. Lists come back as numpy arrays with the structs' fields: poses["position"]["x"].
+hh_body_x, hh_player_x and the others as body_x, player_x; those of a Match are hh_match_x as x. Lists come back as numpy arrays with the structs' fields: poses["position"]["x"].
 A call that the library refuses raises HandholdError, and nothing has changed.
 """
 import ctypes
+import operator
 
 from . import _generated
 from ._generated import *  # noqa: F401,F403
-from ._generated import HH_LEFT, HH_RIGHT, MeshDef, PlayerInput, Pose, SurfaceQuery, WorldCalls, WorldDef
+from ._generated import (HH_ERROR_STATE, HH_LEFT, HH_RIGHT, MatchCalls, MatchDef, MatchGame, MeshDef, PlayerInput, Pose, SurfaceQuery, WorldCalls,
+                         WorldDef)
 from ._library import HandholdError, check, lib, load, optional, refuse_in_callback  # noqa: F401
 
 
@@ -55,11 +57,14 @@ class World(WorldCalls):
     def __init__(self, definition=None, **fields):
         self._handle = ctypes.c_void_p()
         self._kept = {}
+        self._match = None  # the handle of its match, null when that has ended
         check(lib().hh_world_create(optional(WorldDef, definition, fields), ctypes.byref(self._handle)))
 
     def close(self) -> None:
-        """Destroys the world. Not inside a callback: HH_ERROR_STATE."""
+        """Destroys the world. Not inside a callback or in a match: HH_ERROR_STATE."""
         refuse_in_callback("a world cannot be closed")
+        if self._match:
+            raise HandholdError(HH_ERROR_STATE, "HH_ERROR_STATE: a world cannot be closed while it is in a match: close the match first")
         self.__del__()
 
     def __enter__(self):
@@ -74,6 +79,8 @@ class World(WorldCalls):
     __deepcopy__ = __copy__
 
     def __del__(self):
+        if getattr(self, "_match", None):  # the collector may end the world before its match
+            _end_match(self._match)
         if getattr(self, "_handle", None):
             lib().hh_world_destroy(self._handle)
             self._handle = ctypes.c_void_p()
@@ -102,6 +109,63 @@ class World(WorldCalls):
             if hasattr(surfaces, "cast_sphere"):
                 query.cast_sphere = _answer(lambda radius_m, start, end, skip, count: surfaces.cast_sphere(radius_m, start, end, skip[:count]))
         self.set_surface_query(query)
+
+
+class Match(MatchCalls):
+    """A world's part in a match: hh_match_create. Your transport carries its packets. Close it before its world, or use it in a `with` statement.
+
+    `game`: your own state, which goes back and forth with the world's. It has the functions step(tick, buttons), save(place), restore(place) and
+    hash() of hh_match_game; those that it lacks are not called. What a function raises is raised when the call of the match has ended."""
+
+    def __init__(self, world, game=None, definition=None, **fields):
+        if not isinstance(world, World):
+            raise TypeError(f"a match needs a World, not {world!r}")
+        self._handle = ctypes.c_void_p()
+        self._world = world  # lives as long as the match
+        self._kept = None if game is None else _game_of(game)
+        result = lib().hh_match_create(world._handle, optional(MatchDef, definition, fields), optional(MatchGame, self._kept), ctypes.byref(self._handle))
+        if self._handle:
+            world._match = self._handle
+        try:
+            check(result)
+        except BaseException:
+            self.__del__()
+            raise
+
+    def close(self) -> None:
+        """Ends the match; the world stays as it is. Not inside a callback: HH_ERROR_STATE."""
+        refuse_in_callback("a match cannot be closed")
+        self.__del__()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *error):
+        self.close()
+
+    def __copy__(self, *_):
+        raise TypeError("a match cannot be copied")
+
+    __deepcopy__ = __copy__
+
+    def __del__(self):
+        if getattr(self, "_handle", None):
+            _end_match(self._handle)
+
+
+def _end_match(match) -> None:
+    lib().hh_match_destroy(match)
+    match.value = None  # for the world too, which has the same object
+
+
+def _game_of(game):
+    functions = {"step": lambda context, tick, buttons, count: game.step(tick, buttons[:count]), "save": lambda context, place: game.save(place),
+                 "restore": lambda context, place: game.restore(place),
+                 "hash": lambda context: operator.index(game.hash()) & 0xffffffffffffffff}
+    found = {name: call for name, call in functions.items() if hasattr(game, name)}
+    if not found:
+        raise TypeError(f"{game!r} has none of the functions of a game: {', '.join(functions)}")
+    return MatchGame(**found)
 
 
 def _answer(find):

@@ -13,9 +13,16 @@ HANDHOLD_VERSION_MINOR = 2
 HANDHOLD_VERSION_PATCH = 0
 HANDHOLD_VERSION_TEXT = '0.2.0'
 HH_HAND_JOINT_COUNT = 26
+HH_IS_BY_NAME = 0
 HH_IS_BODY = 100
 HH_IS_LEFT_HAND = 200
 HH_IS_RIGHT_HAND = 300
+HH_MATCH_PLAYERS = 16
+HH_MATCH_PACKET_BYTES = 1200
+HH_MATCH_INPUTS_BYTES = 8192
+HH_MATCH_NO_SLOT = 4294967295
+HH_MATCH_PLACES = 64
+HH_MATCH_REFUSALS = 16
 
 
 class Result(enum.IntEnum):
@@ -1603,10 +1610,10 @@ class WorldCalls:
     _handle = None
 
     def step(self, dt_s, inputs):
-        """Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player; players without
-        one are silent. Bad samples are ignored and counted; numbers in commands that are out of range are
-        clamped. Cost: 0.05 ms a player who crawls, 0.15 ms one who climbs all the time, and up to 4 ms in the
-        frame in which a hand closes: docs/guide/cost.md."""
+        """Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player, else
+        HH_ERROR_VALUE; players without one are silent. Bad samples are ignored and counted; numbers in
+        commands that are out of range are clamped. Cost: 0.05 ms a player who crawls, 0.15 ms one who climbs
+        all the time, and up to 4 ms in the frame in which a hand closes: docs/guide/cost.md."""
         inputs, input_count_ = array(PlayerInput, inputs)
         check(lib().hh_world_step(self._handle, dt_s, inputs, input_count_))
 
@@ -2249,7 +2256,7 @@ class WorldCalls:
     def place_bodies(self, motions):
         """Where bodies are now, after the host's own step. Unlike a teleport it ends no grip. A kinematic body
         rests there until hh_body_move_kinematic says where it will be at the end of the next step. Places all
-        or, on an error, none."""
+        or, on an error, none. HH_ERROR_VALUE for a body that is there twice."""
         motions, count_ = array(BodyMotion, motions)
         check(lib().hh_world_place_bodies(self._handle, motions, count_))
 
@@ -2304,8 +2311,9 @@ class WorldCalls:
 
     def end_step(self, players):
         """Second half, after the host's solver. `players`: the solved play spaces; one left out moves as
-        predicted. Bodies that the host has not placed since hh_world_begin_step rest where they were.
-        Releases grips, limits velocities and shows hands and bodies. On an error the step stays begun."""
+        predicted, HH_ERROR_VALUE for one that is there twice. Bodies that the host has not placed since
+        hh_world_begin_step rest where they were. Releases grips, limits velocities and shows hands and
+        bodies. On an error the step stays begun."""
         players, count_ = array(SolvedPlayer, players)
         check(lib().hh_world_end_step(self._handle, players, count_))
 
@@ -2323,3 +2331,166 @@ class WorldCalls:
         makes its own kinematic, takes pose and velocity from here, and places all others before the next
         step. They touch nothing of the host's, but push what its solver pushes."""
         return listed(Body, lambda buffer, capacity, count: lib().hh_world_held_bodies(self._handle, buffer, capacity, count))
+
+
+class MatchCalls:
+    """Every function of a match, as a method. Calls that fail raise HandholdError and change nothing."""
+
+    _handle = None
+
+    def ticks_due(self, elapsed_s):
+        """How often to call hh_match_advance for so much time of the local clock since the last call, [0, 8]: a
+        little more or less than its share, so that inputs reach the server just before they are needed. A
+        spectator stays 9 ticks behind what has come."""
+        ticks = c_uint32()
+        check(lib().hh_match_ticks_due(self._handle, elapsed_s, byref(ticks)))
+        return ticks.value
+
+    def advance(self, input):
+        """Goes back to the first wrong guess, if there is one, steps again to the present, and then one tick on.
+        `input`, not null. `advanced` gets false, and the input is dropped, while the world is 62 ticks ahead
+        of what is confirmed. Cost: a step, and a quarter of one for each tick stepped again:
+        docs/reference/matches.md has figures. A spectator steps the next confirmed tick, or gets false if its
+        inputs have not come; of `input` it takes only is_hidden."""
+        advanced = c_uint8()
+        check(lib().hh_match_advance(self._handle, byref(value(MatchInput, input)), byref(advanced)))
+        return bool(advanced.value)
+
+    def receive(self, packet):
+        """Takes a packet of the server; a spectator those of hh_match_confirmed_inputs. HH_ERROR_DATA, and no
+        change, for bytes that are damaged or not of this match. Packets that came too late or out of order
+        are HH_OK: what they lack comes again. Both are counted in hh_match_stats.refused. Tolerates any
+        bytes."""
+        packet, size_ = raw(packet)
+        check(lib().hh_match_receive(self._handle, packet, size_))
+
+    def packet(self):
+        """Clients only. Writes the next packet to the server, `size` bytes. Call once a tick or once in two. A
+        null `buffer` asks for the most bytes that a packet has, HH_MATCH_PACKET_BYTES; HH_ERROR_CAPACITY for
+        a smaller `capacity`."""
+        return listed(c_uint8, lambda buffer, capacity, count: lib().hh_match_packet(self._handle, buffer, capacity, count))
+
+    def join(self, bytes):
+        """Replaces the world's state by the one of hh_match_state, over a reliable stream of yours. Set your own
+        state to the server's of the same tick before the next hh_match_advance. HH_ERROR_DATA, and no change,
+        for other bytes. Tolerates any bytes."""
+        bytes, size_ = raw(bytes)
+        check(lib().hh_match_join(self._handle, bytes, size_))
+
+    def connect(self, slot):
+        """Somebody plays the slot, or nobody does: then its hands let go and its body floats. At first nobody
+        plays any slot."""
+        check(lib().hh_match_connect(self._handle, slot))
+
+    def disconnect(self, slot):
+        check(lib().hh_match_disconnect(self._handle, slot))
+
+    def receive_from(self, slot, now_s, packet):
+        """Takes a packet that came from that slot's player, at `now_s` on the server's clock. As
+        hh_match_receive; a packet of another slot is HH_ERROR_DATA. The checksum in it finds damage, not
+        forgery: your transport authenticates."""
+        packet, size_ = raw(packet)
+        check(lib().hh_match_receive_from(self._handle, slot, now_s, packet, size_))
+
+    def confirm(self, now_s):
+        """Confirms and steps the ticks whose inputs are complete, or which have ended on the server's clock;
+        missing inputs are filled by a guess that all machines share. At most 16 a call; `ticks` gets the
+        number. Call several times a tick. Null output: skipped."""
+        ticks = c_uint32()
+        check(lib().hh_match_confirm(self._handle, now_s, byref(ticks)))
+        return ticks.value
+
+    def packet_to(self, slot):
+        """Writes the next packet to that slot's player. As hh_match_packet."""
+        return listed(c_uint8, lambda buffer, capacity, count: lib().hh_match_packet_to(self._handle, slot, buffer, capacity, count))
+
+    def state(self, slot):
+        """Writes the state that a player joins with, `size` bytes, for hh_match_join; send your own state of
+        this tick with it. From now on the player is sent the inputs after it. As hh_world_save; with a null
+        `buffer` nothing changes. HH_MATCH_NO_SLOT: the state for a spectator, who is sent the confirmed
+        inputs after the present tick."""
+        return listed(c_uint8, lambda buffer, capacity, count: lib().hh_match_state(self._handle, slot, buffer, capacity, count))
+
+    def sync_test(self, inputs):
+        """Steps one tick with an input for each slot, then goes back sync_ticks and steps again."""
+        inputs, input_count_ = array(MatchInput, inputs)
+        difference = MatchDifference()
+        check(lib().hh_match_sync_test(self._handle, inputs, input_count_, byref(difference)))
+        return difference
+
+    def confirmed_inputs(self, after):
+        """Writes the inputs of all slots in the confirmed ticks after `after`, for hh_match_receive of
+        spectators: over a reliable stream of yours, or into a file, which then has the whole match. `until`
+        gets the last tick written, `after` if there is nothing new: 128 ticks at most, and fewer if the
+        buffer is full. Every 90th tick carries its hash, which the reader compares. HH_ERROR_VALUE if `after`
+        is later than what is confirmed, or too early: 320 ticks are always kept, at most 448. A spectator
+        then needs a state. A null `buffer` asks for HH_MATCH_INPUTS_BYTES; HH_ERROR_CAPACITY for less."""
+        until = c_uint64()
+        return listed(c_uint8, lambda buffer, capacity, count: lib().hh_match_confirmed_inputs(self._handle, after, buffer, capacity, count, byref(until))), until.value
+
+    def needs_state(self, slot):
+        """A player needs hh_match_state and hh_match_join: the world differs from the server's, or inputs are
+        lost for good. A client answers for its own slot only, a spectator for any."""
+        needs = c_uint8()
+        check(lib().hh_match_needs_state(self._handle, slot, byref(needs)))
+        return bool(needs.value)
+
+    def hash(self, tick):
+        """Hash of world and game after a tick: equal on all machines if the tick is confirmed. HH_ERROR_VALUE
+        unless it is the present one or, on a client, one of the 63 before that it has stepped."""
+        hash = c_uint64()
+        check(lib().hh_match_hash(self._handle, tick, byref(hash)))
+        return hash.value
+
+    def shown_offsets(self, slot):
+        """Add these to the drawn positions of a slot's player, so that a corrected guess moves them within 0.08
+        s and not at once: to head and body, and to each hand with what it holds. m, world axes. For the own
+        slot `head` is for the view too, with hands that hold nothing: it moves when others pull at what you
+        hold. Only for pictures. Zero for servers, spectators and sync tests."""
+        head = Vec3()
+        left = Vec3()
+        right = Vec3()
+        check(lib().hh_match_shown_offsets(self._handle, slot, byref(head), byref(left), byref(right)))
+        return head, left, right
+
+    def drawn_player(self, slot, newest=None):
+        """Where to draw a slot's player between two ticks, for displays of another rate than the tick's: at the
+        time up to which hh_match_ticks_due has been called, less one tick, which lies between the last two
+        shown ticks. Call after the ticks of a picture. With hh_match_shown_offsets already. World poses:
+        `origin` is the space of the samples, for the camera rig; `head`; and wrists to draw. A play space
+        that moves by more than 0.5 m or turns by more than 0.2 rad at once, as by a teleport or a snap turn,
+        is not drawn in between. While the world waits, everything stands still. `newest`, for the own slot:
+        the devices at the time of the picture, of any time_s. Head and empty hands are then drawn where they
+        are, and not late. Null: between ticks, as everything else. Fingers go with their wrist; arms, spine
+        and legs with the head. Never changes the world. HH_ERROR_VALUE if `newest` is given for another slot,
+        or to a spectator. Clients and spectators. HH_ERROR_STATE before the first shown tick, and after
+        hh_match_join."""
+        origin = Pose()
+        head = Pose()
+        left = Pose()
+        right = Pose()
+        check(lib().hh_match_drawn_player(self._handle, slot, optional(TrackingSample, newest), byref(origin), byref(head), byref(left), byref(right)))
+        return origin, head, left, right
+
+    def drawn_bodies(self, bodies):
+        """The same for bodies: poses as of hh_world_body_poses. A body that is held goes with its hands; one
+        that moves by more than 0.5 m at once is not drawn in between."""
+        bodies, count_ = array(Body, bodies)
+        poses, poses_at = empty(Pose, count_)
+        check(lib().hh_match_drawn_bodies(self._handle, bodies, count_, poses_at))
+        return poses
+
+    def events(self):
+        """What the last hh_match_advance, hh_match_confirm, hh_match_join or hh_match_sync_test found, in the
+        order of finding. Servers and sync tests have confirmed events only. Valid until the next call of
+        these or of this function. `event_size`: bytes of hh_match_event as the host knows it; the list's
+        elements lie so far apart."""
+        events = POINTER(MatchEvent)()
+        count = c_size_t()
+        check(lib().hh_match_events_sized(self._handle, byref(events), byref(count), sizeof(MatchEvent)))
+        return copied(MatchEvent, events, count)
+
+    def get_stats(self):
+        stats = MatchStats()
+        check(lib().hh_match_get_stats(self._handle, byref(stats)))
+        return stats

@@ -245,11 +245,12 @@ def copied(kind, pointer, count):
 
 
 def listed(kind, call):
-    """A list whose length the library says in a first call. Bytes for c_uint8, else a numpy array."""
+    """A list whose length, or the most that it may have, the library says in a first call. Bytes for c_uint8, else a numpy array."""
     count = ctypes.c_size_t()
     check(call(None, 0, ctypes.byref(count)))
     made, at = empty(kind, count.value)
     check(call(at, count.value, ctypes.byref(count)))
+    made = made[:count.value]
     return made.tobytes() if kind is ctypes.c_uint8 else made
 
 
