@@ -19,10 +19,11 @@ struct BodySurface {
     std::shared_ptr<const GripMesh> mesh;  // never null
 };
 
-// Steps of HandSurroundings::search_signature. A sixth of the travel after which a hand searches
+// Step of HandSurroundings::search_signature. A sixth of the travel after which a hand searches
 // again (k_search_again_m): a link beside the gripped one moves in every frame of a swinging cable.
 inline constexpr double k_search_step_m = 0.005;
-inline constexpr double k_search_step_rad = 0.05;
+// Axes are rounded to that step at the mesh's farthest point, or at this distance if that is more.
+inline constexpr double k_search_lever_m = 0.1;
 
 // Input of the hand stages: one hand and the surfaces near it, in the gripped body's frame (_bs)
 // and in the hand's metres: the world's over PlayerOrigin::scale. A hand on a moving body is
@@ -41,8 +42,8 @@ struct HandSurroundings {
     // Hash of the body, the meshes and their poses rounded to 0.1 mm. While the hash is unchanged,
     // nothing around the hand has moved. 0: no body.
     std::uint64_t signature = 0;
-    // The same hash with positions rounded to k_search_step_m and axes to k_search_step_rad: while
-    // it is unchanged, the surface under the palm is not searched again. 0: no body.
+    // The same hash with poses rounded to k_search_step_m: while it is unchanged, the surface under
+    // the palm is not searched again. 0: no body.
     std::uint64_t search_signature = 0;
     bool is_gripping = false;  // also true for a grip on a head, which has no mesh
     // The hand's pose in its authored grip, in the world's metres; null: not in an authored grip.

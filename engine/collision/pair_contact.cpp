@@ -166,11 +166,24 @@ void add_contacts_at(const PairIo& io, const Pose& pose_ns, const Pose& from_ns)
     }
 }
 
+// The deepest overlap of a part of a with b, as a separation <= 0.
+double overlap_at_end(const PairIo& io, const Convex& a) {
+    double least_m = 0.0;
+    for (const ConvexPart& part : io.b) {
+        const Convex b = place_b(io, part);
+        const double radii_m = a.radius_m + b.radius_m;
+        if (const auto separation = separate_within(a, b, radii_m)) {
+            least_m = std::min(least_m, separation->separation_m - radii_m);
+        }
+    }
+    return least_m;
+}
+
 // After the touch, a may continue to rotate, as a rolling ball does, so that points that did not
 // touch become the deepest. For each contact plane found at `touch_ns`, adds a's deepest point at
-// `to_ns`. The point may be beside b, where only the plane is: as b lies behind the plane, the
-// depth is then at least that of the overlap. Points farther away than k_max_overhang_ratio allows
-// are left out, because a wall that a small rotating b touches would seem to reach far behind it.
+// `to_ns`. A point beyond b's radius is beside b, where only the plane is: it counts only as deep
+// as a and b then overlap, because a wall that a small rotating b touches would seem to reach far
+// behind it.
 void add_deepest_at_end(const PairIo& io, const Pose& touch_ns, const Pose& to_ns) {
     std::vector<NearContact>& contacts = io.scratch.contacts;
     const auto depth_at_end = [&](const NearContact& contact) {
@@ -179,27 +192,30 @@ void add_deepest_at_end(const PairIo& io, const Pose& touch_ns, const Pose& to_n
     };
     constexpr double k_deeper_m = 1e-6;
     constexpr double k_same_normal = 0.9999;
-    // Relative to b's radius. Points of an a that is no larger than b are within it.
-    constexpr double k_max_overhang_ratio = 3.0;
     const std::size_t met = contacts.size();
     for (std::size_t i = 0; i < met; ++i) {
         const NearContact plane = contacts[i];
         const Convex a = io.a[plane.part].at(to_ns);
         const Vec3 deepest = a.support(-plane.normal_ns) - a.radius_m * plane.normal_ns;
-        const double separation_m = plane.normal_ns.dot(deepest - plane.point_b_ns);
+        double separation_m = plane.normal_ns.dot(deepest - plane.point_b_ns);
         const bool is_known = std::ranges::any_of(contacts, [&](const NearContact& other) {
             return other.normal_ns.dot(plane.normal_ns) > k_same_normal &&
                    depth_at_end(other) < separation_m + k_deeper_m;
         });
         const Vec3 point_b_bs = deepest - separation_m * plane.normal_ns + io.to_bs.position;
-        const bool is_beyond =
-            !io.b.empty() && point_b_bs.norm() > k_max_overhang_ratio * reach_m(io.b);
-        if (!is_known && !is_beyond) {
-            const Vec3 at_touch =
-                transform_point(touch_ns, inverse_transform_point(to_ns, deepest));
-            contacts.push_back({at_touch, deepest - separation_m * plane.normal_ns, plane.normal_ns,
-                                separation_m, plane.part});
+        const bool is_beside = !io.b.empty() && point_b_bs.norm() > reach_m(io.b);
+        if (is_known) {
+            continue;
         }
+        if (is_beside) {
+            separation_m = std::max(separation_m, overlap_at_end(io, a));
+            if (separation_m >= 0.0) {
+                continue;
+            }
+        }
+        const Vec3 at_touch = transform_point(touch_ns, inverse_transform_point(to_ns, deepest));
+        contacts.push_back({at_touch, deepest - separation_m * plane.normal_ns, plane.normal_ns,
+                            separation_m, plane.part});
     }
 }
 

@@ -85,6 +85,10 @@ class TriangleBvh {
         const auto& [a, b, c] = slots_[slot];
         return {positions_[a], positions_[b], positions_[c]};
     }
+    // No triangle is farther from the origin of the positions than this.
+    double farthest_m() const {
+        return (origin_ + low_).cwiseAbs().cwiseMax((origin_ + high_).cwiseAbs()).norm();
+    }
     // False only if no triangle is within radius_m.
     bool may_be_near(const Vec3& point, double radius_m) const {
         const Vec3 local = point - origin_;

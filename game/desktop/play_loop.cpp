@@ -18,7 +18,9 @@ namespace handhold {
 namespace {
 
 constexpr double k_status_s = 0.1;
-constexpr double k_longest_picture_s = 0.1;  // what a picture's motion takes in at most
+// Longest time by which one picture advances the free camera and the overlay.
+constexpr double k_longest_picture_s = 0.1;
+constexpr double k_look_s = 0.002;  // longest wait for messages of a match
 
 // Clears the input that applies to the first step only, if a poll is followed by several steps.
 // Buttons that are held down stay.
@@ -240,10 +242,10 @@ class Loop {
 
     // The match says how many ticks are due, and steps them. Pictures have the display's rate.
     void advance_match() {
-        constexpr double k_look_s = 0.002;
         const std::int64_t begin_ns = clock_ns();
-        const std::uint32_t ticks =
-            stage_.match->peer.poll(k_look_s, [this](double end_s, PeerInput& input) {
+        const double until_picture_s = 1e-9 * static_cast<double>(next_picture_ns_ - begin_ns);
+        const std::uint32_t ticks = stage_.match->peer.poll(
+            std::clamp(until_picture_s, 0.0, k_look_s), [this](double end_s, PeerInput& input) {
                 input.commands =
                     stage_.session.advance_devices(played_input(), end_s, input.samples);
                 if (!flies()) {
@@ -257,10 +259,13 @@ class Loop {
         }
         match_s_ += ticks * DesktopSession::k_dt_s;
         ends_ = ends_ || (stage_.end_s > 0.0 && match_s_ >= stage_.end_s);
-        const double since_picture_s = 1e-6 * us_since(pictured_ns_);
-        if (stage_.match->peer.states() > 0 && since_picture_s >= stage_.window.picture_s()) {
-            pictured_ns_ = clock_ns();
-            draw_match(std::min(since_picture_s, k_longest_picture_s));
+        if (stage_.match->peer.states() == 0) {
+            clear_momentary_input(input_);  // nobody turns while the state comes
+        } else if (const std::int64_t now_ns = clock_ns(); now_ns >= next_picture_ns_) {
+            const auto picture_ns = static_cast<std::int64_t>(1e9 * stage_.window.picture_s());
+            next_picture_ns_ = std::max(next_picture_ns_ + picture_ns, now_ns);
+            const double dt_s = 1e-6 * us_since(std::exchange(pictured_ns_, now_ns));
+            draw_match(std::min(dt_s, k_longest_picture_s));
         }
     }
 
@@ -278,7 +283,6 @@ class Loop {
             newest = stage_.session.devices_in(input_, 1e-6 * us_since(ticked_ns_));
         }
         note_drawn(stage_.match->peer, scene(), newest ? &*newest : nullptr, drawn_);
-        stage_.view.show_drawn(&drawn_);
         draw(dt_s);
     }
 
@@ -300,10 +304,12 @@ class Loop {
         if (const auto& aim_ps = stage_.session.body().aim_ps(); own_eyes && aim_ps) {
             add_aim_ring(world().pose(stage_.session.player())->origin, *aim_ps, marks_);
         }
+        stage_.view.show_drawn(stage_.match != nullptr ? &drawn_ : nullptr);
         stage_.view.draw(camera_ws(), stage_.settings.fov_rad,
                          own_eyes ? std::optional(scene().world().render_pose.find_index(player()))
                                   : std::nullopt,
                          stage_.picture, marks_, &ui);
+        stage_.view.show_drawn(nullptr);
         const double draw_us = us_since(begin_ns);
         const std::int64_t shown_ns = clock_ns();
         stage_.window.show(stage_.picture);
@@ -375,11 +381,12 @@ class Loop {
     FreeCamera free_;
     PlayerViewpoint viewpoint_;
     InspectorMemory inspector_;
-    std::optional<hh::Vec3> last_ws_;  // place of the play space in the last picture
-    DrawnMatch drawn_;                 // empty when playing alone
-    std::int64_t ticked_ns_ = 0;       // last tick of the match
-    std::int64_t pictured_ns_ = 0;     // last picture of the match
-    std::vector<Line> marks_;          // reused memory
+    std::optional<hh::Vec3> last_ws_;   // place of the play space in the last picture
+    DrawnMatch drawn_;                  // empty when playing alone
+    std::int64_t ticked_ns_ = 0;        // last tick of the match
+    std::int64_t next_picture_ns_ = 0;  // when the match's next picture is due
+    std::int64_t pictured_ns_ = 0;      // last picture of the match
+    std::vector<Line> marks_;           // reused memory
     StepClock clock_{DesktopSession::k_dt_s};
     DesktopInput input_;
     DesktopInput held_;  // grips held at the last poll

@@ -270,7 +270,8 @@ WindowEvents Window::poll(const PlaySettings& settings) {
 double Window::picture_s() const {
     constexpr int k_usual_hz = 60;
     SDL_DisplayMode mode{};
-    const bool is_known = SDL_GetWindowDisplayMode(impl_->window, &mode) == 0;
+    const int display = SDL_GetWindowDisplayIndex(impl_->window);
+    const bool is_known = display >= 0 && SDL_GetCurrentDisplayMode(display, &mode) == 0;
     return 1.0 / std::max(1, is_known && mode.refresh_rate > 0 ? mode.refresh_rate : k_usual_hz);
 }
 

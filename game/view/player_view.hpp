@@ -40,7 +40,7 @@ class PlayerView {
     void show_controls(std::size_t index, const std::array<ControlValues, k_hand_count>& values) {
         controls_ = PlayerControls{index, values};
     }
-    // Draws players and bodies where `drawn` says, which must outlive the view; null: as stepped.
+    // Draws players and bodies where `drawn` says, which is read by draw; null: as stepped.
     void show_drawn(const DrawnMatch* drawn) { drawn_ = drawn; }
     // Shows a sheet of panels in the world; nullopt: none.
     void show_sheet(const std::optional<Sheet>& sheet) { sheet_ = sheet; }

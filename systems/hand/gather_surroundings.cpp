@@ -18,10 +18,13 @@ class Signatures {
     }
     // Rounded to 0.1 mm and axes to 1e-4, so that tiny numerical differences rarely change the fine
     // hash.
-    void add(const Pose& pose) {
+    void add(const PlacedMesh& placed) {
         constexpr double k_fine_step = 1e-4;
-        add(pose, k_fine_step, k_fine_step, fine_);
-        add(pose, k_search_step_m, k_search_step_rad, coarse_);
+        const double lever_m = std::max(k_search_lever_m, placed.mesh->contact_bvh.farthest_m());
+        fine_.add(placed.mesh->digest);
+        coarse_.add(placed.mesh->digest);
+        add(placed.pose, k_fine_step, k_fine_step, fine_);
+        add(placed.pose, k_search_step_m, k_search_step_m / lever_m, coarse_);
     }
     // Never 0, which means that there is no body.
     std::uint64_t fine() const { return fine_.value() | 1U; }
@@ -154,8 +157,7 @@ class Gatherer {
     // Adds the body, its mesh's digest and its pose.
     void add_to_signatures(Signatures& signatures, Entity body, const PlacedMesh& placed) const {
         signatures.add(io_.persistent_id.at(body).value);
-        signatures.add(placed.mesh->digest);
-        signatures.add(placed.pose);
+        signatures.add(placed);
     }
 
     void add_nearby_meshes(HandSurroundings& out, Signatures& signatures) const {

@@ -37,9 +37,9 @@ struct SearchGripIo {
 // A palm that could only lie inside a solid, or that has no surface, keeps its tracked pose; one
 // that is inside a solid is held outside of it (shared/buried_palm.hpp).
 //
-// A hand searches when its grip begins, when its surroundings change by about k_search_step_m or
-// k_search_step_rad, and after k_search_again_m of travel (hand_travel_m). In other frames it keeps
-// what it found, also if that was no surface.
+// A hand searches when its grip begins, when its surroundings have moved by about k_search_step_m,
+// and after k_search_again_m of travel (hand_travel_m). In other frames it keeps what it found, also
+// if that was no surface.
 //
 // A palm in an authored grip gets the triangle nearest to the authored palm within
 // PalmTuning::reach_m, without a search. Talk row 10.

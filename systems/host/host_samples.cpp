@@ -120,19 +120,27 @@ void name_other_clock(hh_world& host, double off_s) {
 
 // Logs, once per world, that a device counts as not tracked because its pose is not valid.
 void name_invalid_pose(hh_world& host, const hh_tracking_sample& sample) {
+    if (host.has_named_pose) {
+        return;
+    }
+    const auto is_given = [](std::uint8_t is_tracked, std::uint8_t is_inferred) {
+        return is_tracked != 0 || is_inferred != 0;
+    };
     struct Device {
         const char* name;
         const hh_pose& pose;
-        bool is_tracked;
+        bool is_given;
     };
     const std::array<Device, 3> devices = {
-        {{"the head", sample.head, sample.head_tracked != 0},
-         {"the left hand", sample.hands[HH_LEFT], sample.hand_tracked[HH_LEFT] != 0},
-         {"the right hand", sample.hands[HH_RIGHT], sample.hand_tracked[HH_RIGHT] != 0}}};
+        {{"the head", sample.head, is_given(sample.head_tracked, sample.head_inferred)},
+         {"the left hand", sample.hands[HH_LEFT],
+          is_given(sample.hand_tracked[HH_LEFT], sample.hand_inferred[HH_LEFT])},
+         {"the right hand", sample.hands[HH_RIGHT],
+          is_given(sample.hand_tracked[HH_RIGHT], sample.hand_inferred[HH_RIGHT])}}};
     const auto invalid = std::ranges::find_if(devices, [](const Device& device) {
-        return device.is_tracked && !is_valid(unchecked_pose(device.pose));
+        return device.is_given && !is_valid(unchecked_pose(device.pose));
     });
-    if (host.has_named_pose || invalid == devices.end()) {
+    if (invalid == devices.end()) {
         return;
     }
     host.has_named_pose = true;

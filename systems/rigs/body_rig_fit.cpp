@@ -310,8 +310,8 @@ class BodyFitter {
 
     // Sets the eye height: above the lowest vertex, or for figures without legs estimated from the
     // pelvis. Returns false if the head is not above the pelvis.
+    static constexpr double k_share_above_pelvis = 0.43;  // of a person's height at the eyes
     bool find_eye_height() {
-        constexpr double k_share_above_pelvis = 0.43;
         const auto above = [&](const Vec3& point) {
             return (rig_.carriers[BodyRig::k_head].rest_ms.position - point).dot(stance_.up_ms);
         };
@@ -326,8 +326,8 @@ class BodyFitter {
         return above_pelvis > shortest_m_;
     }
 
-    // Returns the middle of the front of the head's skin. Where no skin lies ahead of the head's
-    // joint, as in a skeleton that is given as an array: where a person's eyes are from the joint.
+    // Returns the middle of the front of the head's skin. Without skin, or where none lies ahead of
+    // the head's joint: where a person's eyes are from the joint.
     Vec3 estimated_eyes() const {
         // Shares of the joint's height above the lowest vertex. Of a figure with eye joints,
         // Rocketbox's first adult.
@@ -347,7 +347,12 @@ class BodyFitter {
                 high = high.cwiseMax(p);
             }
         }
-        const bool has_face = low.x() <= high.x() && -low.z() >= k_least_ahead_share * height_m;
+        if (!has_both(BodyBone::shin)) {
+            height_m =
+                (rig_.head_joint_ms - stance_.pelvis_ms).dot(stance_.up_ms) / k_share_above_pelvis;
+        }
+        const bool has_face = !figure_.triangles.empty() && low.x() <= high.x() &&
+                              -low.z() >= k_least_ahead_share * height_m;
         const Vec3 eyes =
             has_face ? Vec3(0.5 * (low.x() + high.x()), 0.5 * (low.y() + high.y()), low.z())
                      : Vec3(0.0, k_up_share * height_m, -k_ahead_share * height_m);

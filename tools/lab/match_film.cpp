@@ -179,14 +179,23 @@ class MatchFilm {
         }
         const Column<RenderPose>& poses = scene.world().render_pose;
         const std::size_t index = poses.find_index(entity_of(now.scene.players[k_shown_player]));
-        const RenderPose pose = now.drawn_now.of(index, poses.elements()[index]);
-        now.drawn[tick] = {pose.hands[0].shown_ws.position, pose.hands[1].shown_ws.position};
+        now.drawn[tick] = hands_at_tick(now, poses.elements()[index]);
         now.view->draw(camera_ws_, options_.fov_deg * k_degree, std::nullopt, picture_);
         std::array<char, 64> name{};
         std::snprintf(name.data(), name.size(), "%s_%06llu.png",
                       i == k_viewing_player ? "here" : "there",
                       static_cast<unsigned long long>(tick));
         return save_png(picture_, (options_.out / name.data()).string());
+    }
+
+    // Hands of the player who is shown, at the tick itself: pictures are between two.
+    DrawnHands hands_at_tick(const FilmPeer& now, const RenderPose& pose) const {
+        DrawnHands hands = {pose.hands[0].shown_ws.position, pose.hands[1].shown_ws.position};
+        const auto offsets = now.peer->match().shown_offsets(k_shown_player);
+        for (std::size_t side = 0; options_.hides_corrections && offsets && side < 2; ++side) {
+            hands[side] += from_host(offsets->hands[side]);
+        }
+        return hands;
     }
 
     MatchFilmOptions options_;

@@ -28,7 +28,8 @@ bool is_impact(const ConstraintGraph& graph, const RowBlock& block) {
     constexpr double k_fast_mps = 1.0;
     const SolverBody& a = graph.bodies[block.a];
     const SolverBody& b = graph.bodies[block.b];
-    if (largest_approach_mps(a, b, block) < k_fast_mps) {
+    constexpr double k_rounding = 1.0 - 1e-9;
+    if (largest_approach_mps(a, b, block) < k_rounding * k_fast_mps) {
         return false;
     }
     const Vec3 normal = b.pose_ws.rotation * block.normal_b_bs;

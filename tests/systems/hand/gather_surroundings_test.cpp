@@ -146,10 +146,44 @@ TEST(GatherSurroundings, BodiesThatMoveBesideTheHandRarelyChangeTheSearchSignatu
         last_search = hand.search_signature;
     }
     EXPECT_EQ(changes, k_frames);
-    // A rounded coordinate changes once a step: 67 mm on three axes, and two axes that turn by
-    // 0.2 rad.
-    EXPECT_LE(search_changes, 1 + 14 + 3 + 2 * 4 + 4);
+    // The box's corners move by up to 2.5 mm in a frame, and a change needs about 5 mm.
+    EXPECT_LE(search_changes, k_frames / 2);
     EXPECT_GE(search_changes, 6);  // the largest coordinate alone
+}
+
+// Any move or turn of a body beside the hand that takes one of its points farther than two steps:
+// the surface is searched again, however far the body's frame is from the hand.
+TEST(GatherSurroundings, BodiesThatMoveFarChangeTheSearchSignature) {
+    test::Random random(4);
+    for (int i = 0; i < 300; ++i) {
+        OneHand scene;
+        const GripMeshLibrary meshes(scene.shapes);
+        const Entity other = test::entity(9);
+        scene.persistent_id.add(other).value = 8;
+        scene.body_pose.add(other);
+        scene.collider.add(other).shape = scene.box;
+        scene.bodies = {k_wall, other};
+        const Pose from{Vec3(0.6, 0.55, 0.0), random.rotation()};
+        const double corner_m = meshes.at(scene.box).contact_bvh.farthest_m();
+        const Pose by{random.vector(0.02),
+                      rotation_about(random.direction(), random.between(0.0, 0.05))};
+        const Pose to{from.position + by.position, by.rotation * from.rotation};
+        double moved_m = 0.0;
+        for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}) {
+            for (const double sign : {-1.0, 1.0}) {
+                const Vec3 point = sign * corner_m * axis;
+                moved_m = std::max(
+                    moved_m, (transform_point(to, point) - transform_point(from, point)).norm());
+            }
+        }
+        scene.body_pose.at(other).pose_ws = from;
+        const std::uint64_t before = scene.gather(&meshes).search_signature;
+        scene.body_pose.at(other).pose_ws = to;
+        const std::uint64_t after = scene.gather(&meshes).search_signature;
+        if (moved_m > 4.0 * k_search_step_m) {
+            EXPECT_NE(before, after) << i;
+        }
+    }
 }
 
 }  // namespace

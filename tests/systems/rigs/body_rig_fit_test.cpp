@@ -109,6 +109,8 @@ TEST(FitBodyRig, EyesDefaultToTheFrontOfTheHead) {
     };
     add(Vec3(0.0, 1.72, -0.10), 0.9F);  // the brow
     add(Vec3(0.0, 1.72, -0.30), 0.2F);  // a visor of the suit
+    const auto last = static_cast<std::uint32_t>(sticks.figure.positions.size()) - 1;
+    sticks.figure.triangles.push_back({last - 2, last - 1, last});
     const Result<BodyRig> rig = fit_body_rig(sticks.figure);
     ASSERT_TRUE(rig.ok()) << rig.error().message();
     const Vec3 eyes_ms = rig.value().carriers[BodyRig::k_head].rest_ms.position;
@@ -126,6 +128,13 @@ TEST(FitBodyRig, EyesWithoutSkinAreAboveAndAheadOfTheHeadsJoint) {
             joint.name = "a";
             joint.bind_ms = sticks.figure.joints[sticks.joint("Head")].bind_ms;
             sticks.figure.positions[i] = joint.bind_ms.position;
+        }
+        if (seed % 2 == 0) {  // a joint of the face is no face
+            const std::size_t jaw = sticks.joint("a");
+            const Quat yaw = rotation_about(Vec3::UnitY(), 0.7 * seed);
+            sticks.figure.joints[jaw].name = "jaw";
+            sticks.figure.joints[jaw].bind_ms.position += yaw * (scale * Vec3(0.0, -0.025, -0.06));
+            sticks.figure.positions[jaw] = sticks.figure.joints[jaw].bind_ms.position;
         }
         const Result<BodyRig> rig = fit_body_rig(sticks.figure);
         ASSERT_TRUE(rig.ok()) << rig.error().message();
