@@ -74,7 +74,8 @@ struct FingerPose {
     std::array<bool, k_finger_count> is_authored = {};
     std::array<bool, k_finger_count> authored_pose_rejected = {};
     // Cache key of the closing. The digits close again on another body, at another place of its
-    // surface, in another grip, or after enough wrist travel. Null body: not closed.
+    // surface, in another grip, or after enough wrist travel. Null body: not closed, or given up by
+    // fit_hands.
     Entity closed_body = k_no_entity;
     Pose closed_wrist_bs;  // wrist at the closing, with PalmOffset::held_m and held_turn_rad
     Vec3 closed_point_bs = Vec3::Zero();

@@ -92,12 +92,13 @@ enum class Fallback : std::uint8_t {
     release_speed_clamped,
     object_speed_clamped,
     head_ignores_full,
-    // Fingers and palms.
+    // Fingers and palms. Those of closing digits and hand_penetrates count again at each closing:
+    // in every second frame for a hand that its fits lead into solids (fit_hands).
     finger_full_search,   // the seeded searches did not suffice: all triangles in reach were tested
     finger_depenetrated,  // the closed finger penetrated: moved to a sample pose
     finger_opened,        // the finger, closed or in a sample pose, penetrated: opened step by step
     finger_no_contact,    // a closing digit touches nothing: it bends like its neighbours
-    hand_penetrates,      // the fitted hand still penetrates by more than 3 mm: shown penetrating
+    hand_penetrates,      // the fit of a closing penetrates by more than 3 mm: shown penetrating
     body_no_surface,      // the gripped body has no grip mesh: hand shown as tracked
     palm_no_surface,      // no surface near a gripping palm: hand shown as tracked
     // Authored grips.

@@ -41,7 +41,7 @@ class Window {
 
     WindowEvents poll(const PlaySettings& settings);
     void show(const Image& picture);
-    // Time between two pictures of the display, s; 1/60 if it does not tell.
+    // Time between two pictures of the display, s; 1/60 if it is unknown.
     double picture_s() const;
     // true: the mouse is hidden and controls view and grips while the window has focus. false: the
     // mouse is a pointer.

@@ -9,8 +9,8 @@
 
 namespace handhold {
 
-// What of a scene is drawn elsewhere than where the last tick left it: between the last two ticks,
-// with corrections of guesses hidden. Empty: nothing.
+// Players and bodies of a scene as a match draws them: between the last two ticks, with corrections
+// of guesses hidden. Empty: all are drawn as the last tick left them.
 struct DrawnMatch {
     std::vector<std::optional<DrawnPlace>> players;  // indexed by player of the world
     std::vector<Pose> visuals_ws;                    // bodies of Scene::visuals, in their order

@@ -22,8 +22,8 @@ constexpr std::string_view name_of_struct() {
     return name.substr(0, name.find_first_of(";]"));
 }
 
-// Throws HH_ERROR_VERSION: a struct of `size` bytes, of which this library knows those from
-// `first_size` to `own_size`. `is_filled`: an hh_default_ function sets its struct_size.
+// Throws HH_ERROR_VERSION for a struct of `size` bytes: this library knows sizes from `first_size`
+// to `own_size`. `is_filled`: an hh_default_ function sets its struct_size.
 [[noreturn]] void fail_size(std::string_view name, bool is_filled, std::size_t size,
                             std::size_t first_size, std::size_t own_size);
 

@@ -43,7 +43,8 @@ Result<BodyBones> find_mapped_bones(const SkinnedMesh& figure, const BodyMap& ma
 
 // Finds the bones: those in `mapped`, then by the joints' names, then by shape
 // (fill_bones_by_shape). If the result is not plausible, repeats this without the names. Returns
-// the errors that fit_body_rig lists. `names`: by what a caller can name joints, for the message.
+// the errors that fit_body_rig lists. `names`: the caller's means of naming joints, for the
+// message.
 Result<BodyBones> find_body_bones(const SkinnedMesh& figure, const BodyBones& mapped,
                                   const char* names = "a map");
 

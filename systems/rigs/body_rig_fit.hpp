@@ -27,8 +27,8 @@ namespace handhold {
 // implausible proportions (find_implausible_bone); joints in the map that do not exist; bones
 // without length; figures that are not upright.
 Result<BodyRig> fit_body_rig(const SkinnedMesh& figure, const BodyMap& map = {});
-// fit_body_rig with known joints instead of a map. `names`: by what a caller can name joints, for
-// the message about joints that are not found.
+// fit_body_rig with known joints instead of a map. `names`: the caller's means of naming joints,
+// for the message about joints that are not found.
 struct BodyBones;
 Result<BodyRig> fit_body_rig_with(const SkinnedMesh& figure, const BodyBones& mapped,
                                   const char* names = "a map");

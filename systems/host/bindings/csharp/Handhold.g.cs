@@ -2093,7 +2093,7 @@ namespace Handhold {
 
     public partial class World {
 
-        /// <summary>Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player, else HH_ERROR_VALUE; players without one are silent. Bad samples are ignored and counted; numbers in commands that are out of range are clamped. Cost: 0.05 ms a player who crawls, 0.15 ms one who climbs all the time, and up to 4 ms in the frame in which a hand closes: docs/guide/cost.md.</summary>
+        /// <summary>Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player, else HH_ERROR_VALUE; players without one are silent. Bad samples are ignored and counted; numbers in commands that are out of range are clamped. Cost: about 0.03 ms for a player who crawls, 0.05 ms for one who grips and lets go all the time, and up to 4 ms in the frame in which a hand closes: docs/guide/cost.md.</summary>
         public unsafe void Step(double dt_s, PlayerInput[] inputs) {
             fixed (PlayerInput* inputs_at = inputs) {
                 Library.Check(Native.hh_world_step(Handle, dt_s, inputs_at, Library.Count(inputs)));
@@ -2997,7 +2997,7 @@ namespace Handhold {
             }
         }
 
-        /// <summary>hh_player_set_body_rig for a skeleton as an array, of an engine that has no glTF file: 1 to 1024 joints, in any order. In other axes: handhold/convert.h. No joints: none. The tracked head lies between the eyes: at joints below the head whose names end in "eye", "eye_l" or "eye_r", else estimated from the head's joint and its children. HH_ERROR_VALUE for parents that do not exist or form a ring; HH_ERROR_DATA says by name or index which joints are missing or implausible.</summary>
+        /// <summary>hh_player_set_body_rig for a skeleton as an array, of an engine that has no glTF file: 1 to 1024 joints, in any order. In other axes: handhold/convert.h. No joints: none. The tracked head lies between the eyes: at joints below the head whose names end in "eye", "eyes", "eye_l", "eye_r", "eye.l" or "eye.r", in any case, else estimated from the head's joint and its children. HH_ERROR_VALUE for parents that do not exist or form a ring; HH_ERROR_DATA says by name or index which joints are missing or implausible.</summary>
         public unsafe void PlayerSetBodySkeleton(Player player, SkeletonJoint[] joints, HhSpace space, string[] names = null) {
             SkeletonJoint[] joints_given = Library.Copy(joints);
             byte[] names_bytes = Library.Texts(names, joints, "names");

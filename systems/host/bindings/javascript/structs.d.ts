@@ -892,7 +892,7 @@ export declare class LibraryCalls {
 
 /** Every function of a world, as a method. They throw a HandholdError if the library refuses the call. */
 export declare class WorldCalls {
-    /** Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player, else HH_ERROR_VALUE; players without one are silent. Bad samples are ignored and counted; numbers in commands that are out of range are clamped. Cost: 0.05 ms a player who crawls, 0.15 ms one who climbs all the time, and up to 4 ms in the frame in which a hand closes: docs/guide/cost.md. */
+    /** Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player, else HH_ERROR_VALUE; players without one are silent. Bad samples are ignored and counted; numbers in commands that are out of range are clamped. Cost: about 0.03 ms for a player who crawls, 0.05 ms for one who grips and lets go all the time, and up to 4 ms in the frame in which a hand closes: docs/guide/cost.md. */
     step(dt_s: number, inputs: Given<hh_player_input>[]): void;
     /** hh_world_step without fitted hands, arms, spine and legs: about a quarter of its cost. What hosts draw stays as the last other step left it: hh_player_pose with its hands, joints of hands and bodies, hh_player_push_back. Everything else changes exactly as in hh_world_step, bit for bit: hh_world_simulated_hash is equal whichever steps were shown. For rollback: step again to the present with this, and the last time with hh_world_step. Events carry the tracked hand's position. */
     stepSimulated(dt_s: number, inputs: Given<hh_player_input>[]): void;
@@ -1067,7 +1067,7 @@ export declare class WorldCalls {
     playerSetHandRig(player: Given<hh_player>, side: number, gltf: Uint8Array | string | null): void;
     /** The player's body drives a humanoid skeleton from a glTF file; the table of a VRM file says which joint is which. Null bytes: none. */
     playerSetBodyRig(player: Given<hh_player>, gltf: Uint8Array | string | null): void;
-    /** hh_player_set_body_rig for a skeleton as an array, of an engine that has no glTF file: 1 to 1024 joints, in any order. In other axes: handhold/convert.h. No joints: none. The tracked head lies between the eyes: at joints below the head whose names end in "eye", "eye_l" or "eye_r", else estimated from the head's joint and its children. HH_ERROR_VALUE for parents that do not exist or form a ring; HH_ERROR_DATA says by name or index which joints are missing or implausible. */
+    /** hh_player_set_body_rig for a skeleton as an array, of an engine that has no glTF file: 1 to 1024 joints, in any order. In other axes: handhold/convert.h. No joints: none. The tracked head lies between the eyes: at joints below the head whose names end in "eye", "eyes", "eye_l", "eye_r", "eye.l" or "eye.r", in any case, else estimated from the head's joint and its children. HH_ERROR_VALUE for parents that do not exist or form a ring; HH_ERROR_DATA says by name or index which joints are missing or implausible. */
     playerSetBodySkeleton(player: Given<hh_player>, joints: Given<hh_skeleton_joint>[], space: number): void;
     /** Joints of the player's body rig, in the order in which they were given. Fingers follow the shown hand's; a figure with both hands' fingers needs no second pair of hands (hh_player_skeleton_fingers). HH_ERROR_STATE without a rig. */
     playerSkeleton(player: Given<hh_player>, space: number): hh_pose[];

@@ -126,10 +126,10 @@ typedef struct hh_skeleton_joint {
 } hh_skeleton_joint;
 /* hh_player_set_body_rig for a skeleton as an array, of an engine that has no glTF file: 1 to 1024
  * joints, in any order. In other axes: handhold/convert.h. No joints: none. The tracked head lies
- * between the eyes: at joints below the head whose names end in "eye", "eye_l" or "eye_r", else
- * estimated from the head's joint and its children. HH_ERROR_VALUE for
- * parents that do not exist or form a ring; HH_ERROR_DATA says by name or index which joints are
- * missing or implausible. */
+ * between the eyes: at joints below the head whose names end in "eye", "eyes", "eye_l", "eye_r",
+ * "eye.l" or "eye.r", in any case, else estimated from the head's joint and its children.
+ * HH_ERROR_VALUE for parents that do not exist or form a ring; HH_ERROR_DATA says by name or index
+ * which joints are missing or implausible. */
 HH_API hh_result hh_player_set_body_skeleton(hh_world* world, hh_player player,
                                              const hh_skeleton_joint* joints, size_t count,
                                              hh_space space);

@@ -114,16 +114,17 @@ static inline hh_player_input hh_default_player_input(void) {
 
 /* Steps the world by dt_s, in [1e-6, 10]; 1/90 is usual. `inputs`: at most one a player, else
  * HH_ERROR_VALUE; players without one are silent. Bad samples are ignored and counted; numbers in
- * commands that are out of range are clamped. Cost: 0.05 ms a player who crawls, 0.15 ms one who climbs all the time, and up
- * to 4 ms in the frame in which a hand closes: docs/guide/cost.md. */
+ * commands that are out of range are clamped. Cost: about 0.03 ms for a player who crawls, 0.05 ms
+ * for one who grips and lets go all the time, and up to 4 ms in the frame in which a hand closes:
+ * docs/guide/cost.md. */
 HH_API hh_result hh_world_step(hh_world* world, double dt_s, const hh_player_input* inputs,
                                size_t input_count);
 /* hh_world_step without fitted hands, arms, spine and legs: about a quarter of its cost. What hosts
  * draw stays as the last other step left it: hh_player_pose with its hands, joints of hands and
  * bodies, hh_player_push_back.
- * Everything else changes exactly as in hh_world_step, bit for bit: hh_world_simulated_hash is equal
- * whichever steps were shown. For rollback: step again to the present with this, and the last time
- * with hh_world_step. Events carry the tracked hand's position. */
+ * Everything else changes exactly as in hh_world_step, bit for bit: hh_world_simulated_hash is
+ * equal whichever steps were shown. For rollback: step again to the present with this, and the last
+ * time with hh_world_step. Events carry the tracked hand's position. */
 HH_API hh_result hh_world_step_simulated(hh_world* world, double dt_s,
                                          const hh_player_input* inputs, size_t input_count);
 /* While the game is paused: heads, hands and bodies of players follow their last sample, whatever

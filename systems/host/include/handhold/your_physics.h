@@ -182,9 +182,9 @@ HH_API hh_result hh_world_hand_constraints(const hh_world* world,
 HH_API hh_result hh_world_player_motions(const hh_world* world, const hh_player_motion** motions,
                                          size_t* count);
 /* Second half, after the host's solver. `players`: the solved play spaces; one left out moves as
- * predicted, HH_ERROR_VALUE for one that is there twice. Bodies that the host has not placed since hh_world_begin_step rest where they were.
- * Releases grips, limits velocities and shows hands and bodies. On an error the step stays
- * begun. */
+ * predicted, HH_ERROR_VALUE for one that is there twice. Bodies that the host has not placed since
+ * hh_world_begin_step rest where they were. Releases grips, limits velocities and shows hands and
+ * bodies. On an error the step stays begun. */
 HH_API hh_result hh_world_end_step(hh_world* world, const hh_solved_player* players, size_t count);
 /* Velocities that the host must give its bodies: after hh_world_begin_step those of bodies that the
  * distance grab pulls, after hh_world_end_step those of thrown and limited bodies. Players':
