@@ -291,6 +291,17 @@ class Authoring(unittest.TestCase):
         volume = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6.0
         self.assertAlmostEqual(volume / (math.pi * BAR_RADIUS_M**2 * 0.3 * 1.2 * 0.9), 1.0, delta=0.03)
 
+    def test_binding_takes_blenders_vectors_and_quaternions(self) -> None:
+        pose = handhold.Pose(position=Vector((1.0, 2.0, 3.0)), rotation=Quaternion((0.5, 0.1, 0.2, 0.3)))
+        self.assertEqual(pose.position, handhold.Vec3(1.0, 2.0, 3.0))
+        np.testing.assert_allclose([getattr(pose.rotation, axis) for axis in "xyzw"], (0.1, 0.2, 0.3, 0.5), atol=1e-7)
+        with handhold.World() as world:
+            world.body_add(shape=world.shape_add_box(Vector((1.0, 2.0, 3.0))), pose=(Vector((0.0, 1.0, 0.0)), Quaternion()))
+            self.assertEqual(world.bodies().size, 1)
+            for wrong in (Vector((1.0, 2.0)), Vector((1.0, 2.0, 3.0, 4.0)), "123", b"123", 3.0):
+                with self.assertRaises(TypeError, msg=repr(wrong)):
+                    world.shape_add_box(wrong)
+
     def test_unknown_controller_says_what_the_program_says(self) -> None:
         settings().controllers = str(WORK / "absent.json")
         with self.assertRaisesRegex(RuntimeError, "absent.json"):

@@ -149,7 +149,8 @@ class Struct(ctypes.Structure):
 
 
 def value(kind, given):
-    """`given` as `kind`. It may be an instance, a tuple, a dictionary, an element of a numpy array, a sequence of numbers, or None: all zero."""
+    """`given` as `kind`: an instance, a tuple, a dictionary, an element of a numpy array, a sequence of numbers, or None for all zero. A vector or
+    quaternion of another library is read by its attributes x, y, z, w."""
     if isinstance(given, kind) or not issubclass(kind, Struct):
         return given
     if isinstance(given, np.void):
@@ -160,11 +161,19 @@ def value(kind, given):
         return kind(**given)
     if isinstance(given, Struct):
         raise TypeError(f"{type(given).__name__} where {kind.__name__} is needed")
-    if isinstance(given, str) or not hasattr(given, "__iter__"):
-        raise TypeError(f"{kind.__name__} or a sequence of its fields is needed, not {given!r}")
-    words = tuple(given)
-    if len(words) < len(kind._fields_) and all(one is ctypes.c_double for _, one in kind._fields_):
-        raise TypeError(f"{kind.__name__} has {len(kind._fields_)} numbers, {len(words)} are given")
+    refused = f"{kind.__name__} or a sequence of its fields is needed, not {given!r}"
+    if isinstance(given, (str, bytes, bytearray)):
+        raise TypeError(refused)
+    try:
+        words = tuple(given)  # Blender's vectors are sequences without __iter__
+    except TypeError as error:
+        raise TypeError(refused) from error
+    if all(one is ctypes.c_double for _, one in kind._fields_):
+        names = [name for name, _ in kind._fields_]
+        if len(words) < len(names):
+            raise TypeError(f"{kind.__name__} has {len(names)} numbers, {len(words)} are given")
+        if len(words) == len(names) and all(hasattr(given, name) for name in names):
+            words = tuple(getattr(given, name) for name in names)  # Blender's quaternions begin with w
     return kind(*words)
 
 
