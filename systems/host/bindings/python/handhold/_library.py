@@ -124,6 +124,7 @@ class Struct(ctypes.Structure):
         elif isinstance(kind, type) and issubclass(kind, Struct):
             given = value(kind, given)
         elif isinstance(kind, type) and issubclass(kind, ctypes.Array):
+            given = list(given)
             if len(given) != kind._length_:
                 raise TypeError(f"{name}: {kind._length_} elements are needed, {len(given)} are given")
             given = kind(*[value(kind._type_, one) for one in given])
@@ -222,8 +223,8 @@ def array(kind, given):
                 raise TypeError(f"an array of {kind.__name__} is needed, or rows of its numbers; not {given.dtype} of shape {given.shape}")
             made, count = np.ascontiguousarray(given, dtype=number), given.shape[0]
         else:
-            if given.dtype.kind == "f" and wanted.kind in "iu":
-                raise TypeError(f"whole numbers are needed, not {given.dtype}")
+            if wanted.fields is None and given.size > 0 and given.dtype.kind not in ("iu" if wanted.kind in "iu" else "iuf") and given.dtype != wanted:
+                raise TypeError(f"{'whole numbers' if wanted.kind in 'iu' else 'numbers'} are needed, not {given.dtype}")
             made = np.ascontiguousarray(given, dtype=wanted)
             count = made.size
         pointer = made.ctypes.data_as(ctypes.POINTER(kind))
