@@ -227,7 +227,8 @@ internal static class Matches {
             RequireRefused(Result.ErrorData, "packet", () => own.Match.Receive(new byte[] { 1, 2 }));
             RequireRefused(Result.ErrorValue, "slot", () => own.Match.NeedsState(9));
             own.Match.Dispose();
-            RequireRefused(Result.ErrorNull, "players", () => new Match(own.World, null, MatchDef.Default()));
+            RequireRefused(Result.ErrorValue, "no players", () => new Match(own.World, null, MatchDef.Default()));
+            RequireRefused(Result.ErrorValue, "no players", () => new Match(own.World, new Player[0], MatchDef.Default()));
             RequireRefused(Result.ErrorVersion, "", () => new Match(own.World, own.Players, default(MatchDef)));
             MatchDef def = MatchDef.Default();
             def.tick_s = 90.0;

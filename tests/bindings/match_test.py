@@ -198,7 +198,7 @@ class Misuse(unittest.TestCase):
             hh.Match(None, players=players)
         with self.assertRaises(TypeError):
             hh.Match(world, 5, players=players)
-        self.refused(hh.HH_ERROR_NULL, "players", hh.Match, world)
+        self.refused(hh.HH_ERROR_VALUE, "no players", hh.Match, world)
         self.refused(hh.HH_ERROR_VALUE, "tick_s", hh.Match, world, players=players, tick_s=90.0)
         half = type("Half", (), {"save": lambda self, place: None})()
         self.refused(hh.HH_ERROR_VALUE, "save and restore", hh.Match, world, half, players=players)
