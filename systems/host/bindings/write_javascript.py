@@ -113,6 +113,7 @@ class JavaScript:
     def callback_type(self, one: dict) -> str:
         words = []
         result = "void" if one["returns"]["type"] == "void" else self.plain(self.kind(one["returns"]))
+        result = "bigint | number" if result == "bigint" else result
         for param in one["params"]:
             kind = self.plain(self.element(param["type"])) if param["role"] in ("value", "array", "out") else "string"
             if param["role"] == "out":

@@ -336,6 +336,7 @@ class Functions {
         });
         const answer = work(...given);
         if (returns === 'u64') {
+            requireNumber(returns, answer, 'the result');
             return BigInt(answer);
         }
         if (out === undefined || answer === null || answer === undefined) {

@@ -780,7 +780,7 @@ export interface hh_match_game {
     /** Sets your state to the copy in that place. */
     restore: ((place: number) => void) | null;
     /** Hash of your state: machines compare it together with the world's. */
-    hash: (() => bigint) | null;
+    hash: (() => bigint | number) | null;
 }
 
 /** A player's input for one tick. Fill by hh_default_match_input. */
