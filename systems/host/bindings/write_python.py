@@ -187,7 +187,7 @@ class Python:
         self.lines += ["}"]
         for one in (f for f in d.functions if not self_of(f) and not is_raw_only(f)):
             self.wrapper(one)
-        of_match = " What a game's function raises is raised\n    when the call has ended, which has taken effect all the same."
+        of_match = " What a game's function raises is raised\n    when the call has ended, which still takes effect."
         for owner in ("world", "match"):
             also = of_match if owner == "match" else ""
             self.lines += ["", "", f"class {pascal(owner)}Calls:",

@@ -36,7 +36,7 @@ export interface PlayerInput {
 
 /** Every function of a world is a method: hh_world_x as x, hh_body_x and the others as bodyX. Those below have short names, or
  * defaults. Methods throw a HandholdError when the library refuses a call, and a TypeError for arguments of a wrong type; the call then
- * changed nothing. What a callback throws is thrown when the call that made it has ended, which has taken effect all the same. */
+ * changed nothing. What a callback throws is thrown when the call that made it has ended, which still takes effect. */
 declare const WorldBase: new () => Omit<WorldCalls, 'bodyJoints' | 'getTuning' | 'setTuning' | 'step' | 'stepPoseOnly'>;
 export declare class World extends WorldBase {
     private constructor();

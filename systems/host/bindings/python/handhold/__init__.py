@@ -114,7 +114,7 @@ class Match(MatchCalls):
 
     `game`: your own state, which goes back and forth with the world's. It has the functions step(tick, buttons), save(place), restore(place) and
     hash() of hh_match_game; those that it lacks are not called. What a function raises first is raised when the call of the match
-    has ended. That call has taken effect all the same, as if the function had returned (hash: 0)."""
+    has ended. That call still takes effect, as if the function had returned (hash: 0)."""
 
     def __init__(self, world, game=None, definition=None, **fields):
         if not isinstance(world, World):

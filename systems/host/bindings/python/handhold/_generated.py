@@ -2335,7 +2335,7 @@ class WorldCalls:
 
 class MatchCalls:
     """Every function of a match, as a method. Calls that the library refuses raise HandholdError and change nothing. What a game's function raises is raised
-    when the call has ended, which has taken effect all the same."""
+    when the call has ended, which still takes effect."""
 
     _handle = None
 
