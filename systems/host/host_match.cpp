@@ -23,9 +23,9 @@ static_assert(HH_MATCH_PLACES == k_match_window);
 static_assert(HH_MATCH_REFUSALS >= k_match_refusals);
 
 void check_match_def(const hh_match_def& def) {
+    require(def.player_count != 0, HH_ERROR_VALUE, "no players: a match has 1 to 16");
+    require(def.player_count <= HH_MATCH_PLAYERS, HH_ERROR_VALUE, "a match has 1 to 16 players");
     require(def.players != nullptr, HH_ERROR_NULL, "the players are null");
-    require(def.player_count >= 1 && def.player_count <= HH_MATCH_PLAYERS, HH_ERROR_VALUE,
-            "a match has 1 to 16 players");
     checked(def.tick_s, k_shortest_tick_s, k_longest_tick_s, "tick_s must lie in [1e-3, 0.1]");
     require(std::isfinite(def.start_s), HH_ERROR_VALUE, "start_s is not a number");
     require(def.role == HH_MATCH_CLIENT || def.role == HH_MATCH_SERVER ||
@@ -309,12 +309,12 @@ hh_result hh_match_sync_test(hh_match* match, const hh_match_input* inputs, size
     return call([&] {
         require(match_of(match).sync != nullptr, HH_ERROR_STATE, "the match is not a sync test");
         require(difference != nullptr, HH_ERROR_NULL, "the output is null");
-        require(inputs != nullptr, HH_ERROR_NULL, "the inputs are null");
         require(input_count == match->def.player_count, HH_ERROR_VALUE, [&] {
             return "a sync test needs one input for each of the " +
                    std::to_string(match->def.player_count) + " slots, not " +
                    std::to_string(input_count);
         });
+        require(inputs != nullptr, HH_ERROR_NULL, "the inputs are null");
         std::array<MatchInput, k_most_match_players> of_slots;
         for (std::size_t slot = 0; slot < input_count; ++slot) {
             const hh_match_input input = read_def_at(inputs, slot, hh_default_match_input());

@@ -198,16 +198,27 @@ internal static class Matches {
 
     private static void AWorldOutlivesItsMatch() {
         using (Machine own = new Machine(MatchRole.Client)) {
-            RequireRefused(Result.ErrorState, "dispose the match first", () => own.World.Dispose());
             RequireRefused(Result.ErrorState, "in a match", () => own.World.Step(tick, own.Players[0], null));
             RequireRefused(Result.ErrorState, "in a match", () => new Match(own.World, own.Players, MatchDef.Default()));
-            RequireRefused(Result.ErrorState, "dispose the match first", () => own.World.Dispose());
+            RequireRefused(Result.ErrorState, "in a match", () => own.World.Step(tick, own.Players[0], null));
             own.Match.Dispose();
             own.Match.Dispose();
             own.World.Step(tick, own.Players[0], null);
             RequireRefused(Result.ErrorNull, "match", () => own.Match.Advance(null));
             new Match(own.World, own.Players, MatchDef.Default()).Dispose();
         }
+    }
+    private static void ADisposedWorldEndsItsMatch() {
+        Machine own = new Machine(MatchRole.Client);
+        try {
+            using (own.World) {
+                own.Match.Advance(null);
+                throw new FormatException("the reason, not a match that is still open");
+            }
+        } catch (FormatException) {
+        }
+        RequireRefused(Result.ErrorNull, "match", () => own.Match.Advance(null));
+        own.Dispose();
     }
     private static void WhatAMatchNeedsIsNamed() {
         RequireRefused(Result.ErrorNull, "world", () => new Match(null, new Player[1], MatchDef.Default()));
@@ -216,7 +227,8 @@ internal static class Matches {
             RequireRefused(Result.ErrorData, "packet", () => own.Match.Receive(new byte[] { 1, 2 }));
             RequireRefused(Result.ErrorValue, "slot", () => own.Match.NeedsState(9));
             own.Match.Dispose();
-            RequireRefused(Result.ErrorNull, "players", () => new Match(own.World, null, MatchDef.Default()));
+            RequireRefused(Result.ErrorValue, "no players", () => new Match(own.World, null, MatchDef.Default()));
+            RequireRefused(Result.ErrorValue, "no players", () => new Match(own.World, new Player[0], MatchDef.Default()));
             RequireRefused(Result.ErrorVersion, "", () => new Match(own.World, own.Players, default(MatchDef)));
             MatchDef def = MatchDef.Default();
             def.tick_s = 90.0;
@@ -271,6 +283,7 @@ internal static class Matches {
         Library.SetLog((level, text) => errors += text.Contains("destroyed") ? 1 : 0);
         WorldsOverALossyQueueAreEqual();
         AWorldOutlivesItsMatch();
+        ADisposedWorldEndsItsMatch();
         WhatAMatchNeedsIsNamed();
         WhatAGameThrowsReachesTheCall();
         TheSyncTestNamesWhatIsForgotten();

@@ -64,6 +64,19 @@ internal static class UnityScene {
         GameObject.Send(player.world, "OnDestroy");
     }
 
+    // A script that adds a component before it sets the fields.
+    private static void ComponentsWithoutAWorldSayWhatTheyNeed<T>(Action<T> set) where T : Component, new() {
+        GameObject made = new GameObject("Early");
+        made.SetActive(false);
+        set(made.AddComponent<T>());
+        try {
+            made.SetActive(true);
+            Require(false, "a component without a world is refused");
+        } catch (InvalidOperationException) {
+        }
+        made.Destroy();
+    }
+
     private static HandholdBody Add<T>(HandholdWorld world, Vector3 scale, Action<T> set, BodyKind kind = BodyKind.Static) where T : Collider, new() {
         GameObject made = new GameObject("Body");
         made.SetActive(false);
@@ -133,6 +146,8 @@ internal static class UnityScene {
             HandsPullTheRig();
         }
         ShapesAreThoseOfTheColliders();
+        ComponentsWithoutAWorldSayWhatTheyNeed<HandholdBody>(body => { });
+        ComponentsWithoutAWorldSayWhatTheyNeed<HandholdPlayer>(player => player.controllers = null);
         return 0;
     }
 }

@@ -113,3 +113,41 @@ test('meshes are converted in place only if both lists are there', () => {
     const handhold = makeLibrary(() => ({}));
     assert.deepEqual(handhold.convertMeshFrom(0, [1, 2, 3], null), { coordinates: [1, 2, 3], indices: [] });
 });
+
+test('structs by value are needed, and null is no id', () => {
+    const asked = [];
+    const handhold = makeLibrary(({ word }) => ({
+        hh_body_remove: (world, body) => (asked.push(word(body), word(body + 4)), 0),
+        hh_body_add: (world, at) => (asked.push(word(at + field('hh_body_def', 'shape'))), 0),
+    }));
+    const world = handhold.createWorld();
+    world.removeBody({ index: 3, generation: 4 });
+    world.removeBody(null);
+    world.addBody({ shape: null });
+    assert.deepEqual(asked, [3, 4, 0, 0, 0]);
+    assert.throws(() => world.removeBody(), { name: 'TypeError', message: 'body: a hh_body is needed' });
+    assert.throws(() => world.addBox(), TypeError);
+    assert.throws(() => world.addBox(null), TypeError);
+    assert.throws(() => world.addBox({ x: 1, y: 1 }), TypeError);
+    world.setBodyVelocity(null, { x: 0, y: 0, z: 0 });
+    world.addPlayer();
+    assert.equal(asked.length, 5);
+});
+
+test('numbers are numbers in lists too, and whole where the library needs it', () => {
+    const handhold = makeLibrary(() => ({}));
+    const world = handhold.createWorld();
+    const positions = [0, 0, 0];
+    for (const wrong of [{ positions: ['0', 0, 0] }, { positions: [0, , 0] }, { positions, indices: ['0'] }, { positions, indices: [0.5] },
+        { positions, indices: new Float32Array([0.5]) }, { positions, fits_hands: 'no' }, { positions, fits_hands: null }]) {
+        assert.throws(() => handhold.createMesh(wrong), TypeError, JSON.stringify(wrong));
+    }
+    handhold.createMesh({ positions: new Float64Array(positions), indices: new Uint16Array([0]), fits_hands: false });
+    handhold.createMesh({ positions, indices: new Float32Array([0, 1, 2]), fits_hands: 1 });
+    assert.throws(() => world.addBody({ kind: 0.5 }), TypeError);
+    assert.throws(() => world.addBody({ kind: '1' }), TypeError);
+    assert.throws(() => world.bodySetKind(null, 1.5), TypeError);
+    assert.throws(() => world.bodySetUserData(null, '5'), TypeError);
+    world.bodySetUserData(null, 5);
+    world.bodySetUserData(null, 5n);
+});

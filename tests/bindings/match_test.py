@@ -173,10 +173,9 @@ class Misuse(unittest.TestCase):
 
     def test_a_world_outlives_its_match(self):
         own = Machine(hh.HH_MATCH_CLIENT)
-        self.refused(hh.HH_ERROR_STATE, "close the match first", own.world.close)
         self.refused(hh.HH_ERROR_STATE, "in a match", own.world.step, TICK_S, [])
         self.refused(hh.HH_ERROR_STATE, "in a match", hh.Match, own.world, players=own.players)
-        self.refused(hh.HH_ERROR_STATE, "close the match first", own.world.close)  # the refused match changed nothing
+        self.refused(hh.HH_ERROR_STATE, "in a match", own.world.step, TICK_S, [])  # the refused match changed nothing
         own.match.close()
         own.match.close()
         own.world.step(TICK_S, [])
@@ -185,13 +184,21 @@ class Misuse(unittest.TestCase):
             pass
         own.world.close()
 
+    def test_a_closed_world_ends_its_match(self):
+        own = Machine(hh.HH_MATCH_CLIENT)
+        with self.assertRaises(KeyError), own.world:  # the reason, not a match that is still open
+            own.match.advance({})
+            raise KeyError("of the game")
+        self.refused(hh.HH_ERROR_NULL, "match", own.match.advance, {})
+        own.close()
+
     def test_what_a_match_needs_is_named(self):
         world, players = level()
         with self.assertRaises(TypeError):
             hh.Match(None, players=players)
         with self.assertRaises(TypeError):
             hh.Match(world, 5, players=players)
-        self.refused(hh.HH_ERROR_NULL, "players", hh.Match, world)
+        self.refused(hh.HH_ERROR_VALUE, "no players", hh.Match, world)
         self.refused(hh.HH_ERROR_VALUE, "tick_s", hh.Match, world, players=players, tick_s=90.0)
         half = type("Half", (), {"save": lambda self, place: None})()
         self.refused(hh.HH_ERROR_VALUE, "save and restore", hh.Match, world, half, players=players)

@@ -165,7 +165,7 @@ class Binding(unittest.TestCase):
                 hh.load(os.environ["HANDHOLD_LIBRARY"])
 
     def test_arguments_of_another_shape_are_refused(self):
-        for given in ((1.0, 1.0), 5, "box"):
+        for given in ((1.0, 1.0), 5, "box", b"box"):
             with self.assertRaises(TypeError):
                 self.world.shape_add_box(given)
         player = self.world.player_add()
@@ -174,6 +174,19 @@ class Binding(unittest.TestCase):
                 hh.TrackingSample(hands=[hh.Pose()] * count)
         with self.assertRaises(TypeError):
             self.world.player_set_measures([player])
+
+    def test_arrays_of_whole_numbers_and_generators(self):
+        corners = np.array([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)], np.float32)
+        for indices in ([0, 1, 2], np.arange(3), np.arange(3, dtype=np.uint8), (one for one in range(3))):
+            hh.Mesh(positions=(float(one) for one in corners.ravel()), indices=indices).close()
+        for wrong in (np.array([0.0, 1.0, 2.0]), np.array([0, 1, 2], object), np.array(["0", "1", "2"]), np.array([False, True, True]), "012"):
+            with self.assertRaises(TypeError, msg=repr(wrong)):
+                hh.Mesh(positions=corners, indices=wrong)
+        with self.assertRaises(TypeError):
+            hh.Mesh(positions=corners.astype(str), indices=[0, 1, 2])
+        self.assertEqual(hh.MeshDef(positions=np.array([]), indices=np.array([])).index_count, 0)
+        sample = hh.TrackingSample(hands=(hh.Pose((side, 0.0, 0.0)) for side in range(2)))
+        self.assertEqual([hand.position.x for hand in sample.hands], [0.0, 1.0])
 
     def test_worlds_are_not_copied(self):
         import copy

@@ -248,6 +248,34 @@ class Authoring(unittest.TestCase):
                 bpy.ops.handhold.read_grip()
             self.assertEqual(len(hand.animation_data.action.fcurves), curves, text)
 
+    def test_refused_grips_of_two_hands_change_neither(self) -> None:
+        hand, gripped = self.gripping_hand("left")
+        bpy.ops.handhold.key_pose()
+        settings().name, settings().mirror = "crank", "X"
+        bpy.ops.handhold.mirror_hand()
+        self.assertEqual(bpy.ops.handhold.write_grip(), {"FINISHED"})
+        written = json.loads((WORK / "grip.json").read_text())
+        both = hands.hands()
+        self.assertEqual([side in written for side in fitting.SIDES], [True, True])
+        place(hand, gripped, (0.0, 0.3, 0.0))  # a pose that the grip does not have
+
+        def state():
+            keys = {one[hands.SIDE]: [[tuple(key.co) for key in curve.keyframe_points] for curve in one.animation_data.action.fcurves] for one in both}
+            return keys, {one[hands.SIDE]: hands.joints(one) for one in both}
+        before = state()
+        bent = json.loads(json.dumps(written))
+        next(iter(bent[fitting.SIDES[1]]["fingers"].values()))["curl_deg"] = "much"
+        empty, camera = bpy.data.objects.new("empty", None), bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
+        for one in (empty, camera):
+            bpy.context.collection.objects.link(one)
+        for grip, of in ((bent, gripped), (written, empty), (written, camera)):
+            (WORK / "grip.json").write_text(json.dumps(grip))
+            settings().gripped = of
+            with self.assertRaises(RuntimeError, msg=of.name):
+                bpy.ops.handhold.read_grip()
+            self.assertEqual(state(), before, of.name)
+            self.assertEqual(hands.hands(), both, of.name)
+
     def test_trigger_is_previewed_by_finger_and_controller(self) -> None:
         hand, _ = self.gripping_hand()
         settings().finger = "index"
@@ -276,7 +304,7 @@ class Authoring(unittest.TestCase):
         bpy.ops.handhold.mirror_hand()
         left = next(one for one in hands.hands() if one[hands.SIDE] == "left")
         shown = {frame: hands.joints_at(left, frame) for frame in (hands.RELEASED, hands.PRESSED)}
-        grips.read(alone, gripped, "left", left)  # by the program
+        grips.apply(*grips.poses(alone, gripped, "left"), left)  # by the program
         for frame, poses in shown.items():
             self.assertLess(furthest_m(poses, hands.joints_at(left, frame)), 2e-5, frame)
         bpy.ops.handhold.write_grip()
@@ -290,6 +318,17 @@ class Authoring(unittest.TestCase):
         corners = points[triangles]
         volume = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6.0
         self.assertAlmostEqual(volume / (math.pi * BAR_RADIUS_M**2 * 0.3 * 1.2 * 0.9), 1.0, delta=0.03)
+
+    def test_binding_takes_blenders_vectors_and_quaternions(self) -> None:
+        pose = handhold.Pose(position=Vector((1.0, 2.0, 3.0)), rotation=Quaternion((0.5, 0.1, 0.2, 0.3)))
+        self.assertEqual(pose.position, handhold.Vec3(1.0, 2.0, 3.0))
+        np.testing.assert_allclose([getattr(pose.rotation, axis) for axis in "xyzw"], (0.1, 0.2, 0.3, 0.5), atol=1e-7)
+        with handhold.World() as world:
+            world.body_add(shape=world.shape_add_box(Vector((1.0, 2.0, 3.0))), pose=(Vector((0.0, 1.0, 0.0)), Quaternion()))
+            self.assertEqual(world.bodies().size, 1)
+            for wrong in (Vector((1.0, 2.0)), Vector((1.0, 2.0, 3.0, 4.0)), "123", b"123", 3.0):
+                with self.assertRaises(TypeError, msg=repr(wrong)):
+                    world.shape_add_box(wrong)
 
     def test_unknown_controller_says_what_the_program_says(self) -> None:
         settings().controllers = str(WORK / "absent.json")

@@ -113,6 +113,7 @@ class JavaScript:
     def callback_type(self, one: dict) -> str:
         words = []
         result = "void" if one["returns"]["type"] == "void" else self.plain(self.kind(one["returns"]))
+        result = "bigint | number" if result == "bigint" else result
         for param in one["params"]:
             kind = self.plain(self.element(param["type"])) if param["role"] in ("value", "array", "out") else "string"
             if param["role"] == "out":
@@ -124,8 +125,9 @@ class JavaScript:
         return f"(({', '.join(words)}) => {result}) | null"
 
     def types(self) -> str:
-        lines = [NOTICE[:-1], "", "/** Fields that are left out keep the library's defaults, also inside of structs. */",
+        lines = [NOTICE[:-1], "", "/** Fields that are left out keep the library's defaults, also inside of structs. Vectors and rotations are given whole. null is no id. */",
                  "export type Given<T> = T extends (...words: never[]) => unknown ? T : T extends (infer One)[] ? Given<One>[]",
+                 "    : T extends hh_vec3 | hh_quat ? T : T extends { index: number; generation: number } ? T | null",
                  "    : T extends object ? { [Field in keyof T]?: Given<T[Field]> } : T;", "",
                  "/** A mesh made by Handhold.createMesh. */", "export type Mesh = number & { readonly mesh: unique symbol };", ""]
         for one in self.description.constants:

@@ -187,9 +187,11 @@ class Python:
         self.lines += ["}"]
         for one in (f for f in d.functions if not self_of(f) and not is_raw_only(f)):
             self.wrapper(one)
+        of_match = " What a game's function raises is raised\n    when the call has ended, which still takes effect."
         for owner in ("world", "match"):
+            also = of_match if owner == "match" else ""
             self.lines += ["", "", f"class {pascal(owner)}Calls:",
-                           f'    """Every function of a {owner}, as a method. Calls that fail raise HandholdError and change nothing."""',
+                           f'    """Every function of a {owner}, as a method. Calls that the library refuses raise HandholdError and change nothing.{also}"""',
                            "", "    _handle = None"]
             for one in (f for f in d.functions if self_of(f) == f"hh_{owner}" and not is_raw_only(f)):
                 self.wrapper(one)

@@ -231,6 +231,8 @@ TEST(HostMatch, RefusesWhatItCannotDo) {
         EXPECT_EQ(made, nullptr);
         def = hh::match_def();
     };
+    refused(HH_ERROR_VALUE);  // no players
+    def.player_count = 1;
     refused(HH_ERROR_NULL);
     const hh_player nobody{7, 7};
     def.players = &nobody;

@@ -62,8 +62,8 @@ def write(of_hands: list, gripped, settings) -> dict:
 FAR = (np.array([(0.0, 100.0, 0.0), (0.0, 100.0, 1.0), (1.0, 100.0, 0.0)], dtype=np.float32), np.array([(0, 1, 2)], dtype=np.uint32))
 
 
-def read(grip: dict, gripped, side: str, hand) -> None:
-    """Poses the hand on the object as the grip says, and keys its released and pressed poses."""
+def poses(grip: dict, gripped, side: str) -> tuple:
+    """Released and pressed poses of the side's joints on the object by frame, and the fingers that follow the trigger. Changes nothing."""
     frame = object_frame(gripped)
 
     def joints_of(shown: dict) -> dict:
@@ -71,18 +71,24 @@ def read(grip: dict, gripped, side: str, hand) -> None:
             file, out = Path(folder) / "object.glb", Path(folder) / "grip.glb"
             gltf.write_triangles(file, *FAR)
             commands.export_grip(shown, file, side, out)
-            return {name: frame @ node["pose"] for name, node in gltf.read_nodes(out).items() if name in hand.data.bones}
+            return {name: frame @ node["pose"] for name, node in gltf.read_nodes(out).items()}
 
     pressed, moving = pressed_grip(grip, side)
-    poses = {hands.RELEASED: joints_of(grip)}  # what is refused is refused before a key is lost
+    made = {hands.RELEASED: joints_of(grip)}
     if moving:
-        poses[hands.PRESSED] = joints_of(pressed)
+        made[hands.PRESSED] = joints_of(pressed)
+    return made, moving
+
+
+def apply(made: dict, moving: list, hand) -> None:
+    """Replaces the hand's keys by these poses."""
+    of_hand = {frame: {name: pose for name, pose in joints.items() if name in hand.data.bones} for frame, joints in made.items()}
     hands.clear_keys(hand)
     if moving:
-        hands.set_pose(hand, poses[hands.PRESSED])
+        hands.set_pose(hand, of_hand[hands.PRESSED])
         for finger in moving:
             hands.key(hand, hands.PRESSED, finger)
-    hands.set_pose(hand, poses[hands.RELEASED])
+    hands.set_pose(hand, of_hand[hands.RELEASED])
     hands.key(hand, hands.RELEASED)
     bpy.context.scene.frame_set(hands.RELEASED)
 

@@ -218,14 +218,13 @@ class ReadGrip(Operator):
 
     def work(self, context, settings, _hand):
         grip = read_file(Path(bpy.path.abspath(settings.file)))
-        said = []
-        for side in fitting.SIDES:
-            if side not in grip and "mirror" not in grip:
-                continue
-            hand = next((one for one in hands.hands() if one[hands.SIDE] == side), None) \
-                or new_hand(settings, side)
-            grips.read(grip, settings.gripped, side, hand)
-            said.append(grips.remarks(grip, settings.gripped, side))
+        sides = [side for side in fitting.SIDES if side in grip or "mirror" in grip]
+        # All sides are read before a key is lost.
+        read = [grips.poses(grip, settings.gripped, side) for side in sides]
+        said = [grips.remarks(grip, settings.gripped, side) for side in sides]
+        found = [next((one for one in hands.hands() if one[hands.SIDE] == side), None) or new_hand(settings, side) for side in sides]
+        for hand, (poses, moving) in zip(found, read):
+            grips.apply(poses, moving, hand)
             select(context, hand)
         settings.name, settings.priority = grip["name"], grip.get("priority", 0)
         settings.snap_radius_m, settings.snap_angle_deg = grip.get("snap_radius_m", 0.08), grip.get("snap_angle_deg", 60.0)

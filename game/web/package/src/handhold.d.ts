@@ -11,7 +11,7 @@ export declare class HandholdError extends Error {
     readonly result: number;
 }
 
-/** Loads the library; without a source: handhold.wasm beside this module. handhold-core.wasm is smaller and lacks what reads files
+/** Loads the library; without a source: handhold.wasm beside this module, to which relative paths refer. handhold-core.wasm is smaller and lacks what reads files
  * (glTF levels, rigs, clips, tuning), saved states and matches: their calls throw. */
 export declare function loadHandhold(source?: URL | string | BufferSource | WebAssembly.Module): Promise<Handhold>;
 
@@ -35,8 +35,8 @@ export interface PlayerInput {
 }
 
 /** Every function of a world is a method: hh_world_x as x, hh_body_x and the others as bodyX. Those below have short names, or
- * defaults. Methods throw a HandholdError when the library refuses a call; the call then changed nothing. What a callback throws is
- * thrown when the call that made it has ended. */
+ * defaults. Methods throw a HandholdError when the library refuses a call, and a TypeError for arguments of a wrong type; the call then
+ * changed nothing. What a callback throws is thrown when the call that made it has ended, which still takes effect. */
 declare const WorldBase: new () => Omit<WorldCalls, 'bodyJoints' | 'getTuning' | 'setTuning' | 'step' | 'stepPoseOnly'>;
 export declare class World extends WorldBase {
     private constructor();

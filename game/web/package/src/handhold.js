@@ -214,6 +214,9 @@ export class World extends WorldCalls {
     addMeshShape(mesh, scale = { x: 1, y: 1, z: 1 }) {
         return this.shapeAddMesh(mesh, scale);
     }
+    setBodyVelocity(body, velocity_mps, angular_velocity_radps = { x: 0, y: 0, z: 0 }) {
+        this.bodySetVelocity(body, velocity_mps, angular_velocity_radps);
+    }
     playerPose(player) {
         return this.playerPoses([player])[0];
     }
@@ -260,7 +263,7 @@ export class Match extends MatchCalls {
 const shortNames = {
     addBox: 'shapeAddBox', addSphere: 'shapeAddSphere', addCapsule: 'shapeAddCapsule', addCylinder: 'shapeAddCylinder',
     addHull: 'shapeAddHull', addCompound: 'shapeAddCompound', removeShape: 'shapeRemove',
-    addBody: 'bodyAdd', removeBody: 'bodyRemove', findBody: 'bodyFind', setBodyVelocity: 'bodySetVelocity',
+    addBody: 'bodyAdd', removeBody: 'bodyRemove', findBody: 'bodyFind',
     applyImpulse: 'bodyApplyImpulse', teleportBody: 'bodyTeleport', moveKinematic: 'bodyMoveKinematic', addGrip: 'bodyAddGrip',
     addJoint: 'jointAdd', removeJoint: 'jointRemove', addPlayer: 'playerAdd', removePlayer: 'playerRemove',
     teleportPlayer: 'playerTeleport', setHandInController: 'playerSetHandInController', handJoints: 'playerHandJoints',

@@ -1,6 +1,6 @@
 // Calls of the C interface by the table that its headers gave (calls.js).
 import { calls } from './calls.js';
-import { layoutOf } from './memory.js';
+import { layoutOf, requireNumber } from './memory.js';
 import { structs } from './structs.js';
 
 /** Gives a class all functions that belong to a handle, or to none. Its objects have `library` and, for a handle, `handle`. */
@@ -24,11 +24,16 @@ export function addCalls(type, handle) {
     };
 }
 
-function numberOf(label, value) {
-    if (typeof value !== 'number' && typeof value !== 'boolean') {
-        throw new TypeError(`${label}: a number is needed, not ${value}`);
+function numberOf(kind, label, value) {
+    requireNumber(kind, value, label);
+    return kind === 'u64' ? BigInt(value) : Number(value);
+}
+
+function structOf(m, kind, label, value) {
+    if (value === undefined) {
+        throw new TypeError(`${label}: a ${kind} is needed`);
     }
-    return Number(value);
+    return m.takeOne(kind, value);
 }
 
 const isStruct = (kind) => structs[kind] !== undefined;
@@ -49,7 +54,7 @@ function invoke(object, name, { returns, params }, given) {
                 self: () => object.handle,
                 value: () => {
                     const value = next();
-                    return isStruct(kind) ? m.takeOne(kind, value) : kind === 'u64' ? BigInt(value) : numberOf(label, value);
+                    return isStruct(kind) ? structOf(m, kind, label, value) : numberOf(kind, label, value);
                 },
                 handle: () => library.liveMesh(next() ?? 0),
                 text: () => textOrNull(m, next()),
@@ -63,12 +68,12 @@ function invoke(object, name, { returns, params }, given) {
                         throw new TypeError(`${label}: ${source} elements are needed, ${values.length} are given`);
                     }
                     counted = values.length;
-                    return values.length === 0 ? 0 : m.takeList(kind, values);
+                    return values.length === 0 ? 0 : m.takeList(kind, values, label);
                 },
                 in_place: () => {
                     const values = next() ?? [];
                     const size = counted = values.length;
-                    const at = m.takeList(kind, values);
+                    const at = m.takeList(kind, values, label);
                     results.push([label, () => m.readList(kind, at, size)]);
                     return at;
                 },

@@ -46,6 +46,19 @@ export function layoutOf(kind) {
 /** True for structs that begin with struct_size: the library has their defaults. */
 const grows = (kind) => structs[kind]?.[0][0] === 'struct_size';
 
+/** True for ids, whose fields are index and generation. null stands for no body, player and so on. */
+export const isId = (kind) => structs[kind]?.map(([name]) => name).join() === 'index,generation';
+
+/** Throws a TypeError unless `value` is a number, a boolean, or for u64 a BigInt, and whole where `kind` is. */
+export function requireNumber(kind, value, label) {
+    if (typeof value !== 'number' && typeof value !== 'boolean' && (kind !== 'u64' || typeof value !== 'bigint')) {
+        throw new TypeError(`${label}: a number is needed, not ${value}`);
+    }
+    if (typeof value === 'number' && (kind === 'i32' || kind === 'u32' || kind === 'u64') && !Number.isInteger(value)) {
+        throw new TypeError(`${label}: a whole number is needed, not ${value}`);
+    }
+}
+
 /** Scratch memory of one call, and views that stay valid when the memory grows. */
 export class Memory {
     /** JavaScript functions that the library calls. */
@@ -152,11 +165,9 @@ export class Memory {
     }
 
     /** Writes the fields that the object has. Throws a TypeError for one that the struct lacks. */
-    write(kind, at, value) {
+    write(kind, at, value, label = kind) {
         if (scalars[kind] !== undefined) {
-            if (kind !== 'u64' && kind !== 'bool' && typeof value !== 'number' && typeof value !== 'boolean') {
-                throw new TypeError(`a number is needed, not ${value}`);
-            }
+            requireNumber(kind, value, label);
             scalars[kind].set(this.view, at, value);
             return;
         }
@@ -164,7 +175,11 @@ export class Memory {
             this.#setWord(at, value === null ? 0 : this.takeText(value));
             return;
         }
-        const { fields } = layoutOf(kind);
+        const { fields, size } = layoutOf(kind);
+        if (value === null && isId(kind)) {
+            this.bytes(at, size).fill(0);
+            return;
+        }
         if (value === null || typeof value !== 'object') {
             throw new TypeError(`${kind}: an object is needed, not ${value}`);
         }
@@ -190,21 +205,21 @@ export class Memory {
                 if (given !== null && typeof given.length !== 'number') {
                     throw new TypeError(`${kind}.${name}: a list is needed`);
                 }
-                const size = given?.length ?? 0;
-                if (size % more.each !== 0) {
-                    throw new TypeError(`${name}: ${size} numbers are not a multiple of ${more.each}`);
+                const length = given?.length ?? 0;
+                if (length % more.each !== 0) {
+                    throw new TypeError(`${name}: ${length} numbers are not a multiple of ${more.each}`);
                 }
-                this.#setWord(at + offset, this.takeList(more.of, given ?? []));
-                this.#setWord(at + fields.find((field) => field.name === more.count).offset, size / more.each);
+                this.#setWord(at + offset, this.takeList(more.of, given ?? [], `${kind}.${name}`));
+                this.#setWord(at + fields.find((field) => field.name === more.count).offset, length / more.each);
             } else if (type === 'callback') {
                 this.#setWord(at + offset, given === null ? 0 : this.functions.install(given, more));
             } else if (count === undefined) {
-                this.write(type, at + offset, given);
+                this.write(type, at + offset, given, `${kind}.${name}`);
             } else {
                 if (given?.length !== count) {
                     throw new TypeError(`${kind}.${name}: a list of ${count} is needed`);
                 }
-                Array.from(given).forEach((one, i) => this.write(type, at + offset + i * step, one));
+                Array.from(given).forEach((one, i) => this.write(type, at + offset + i * step, one, `${kind}.${name}`));
             }
         }
     }
@@ -217,17 +232,21 @@ export class Memory {
         }
         return at;
     }
-    takeList(kind, values) {
+    takeList(kind, values, label = kind) {
         const { size } = layoutOf(kind);
         const at = this.take(size * values.length);
         const Numbers = typedArrays[kind];
         if (Numbers !== undefined) {
+            const isFit = values instanceof Numbers || (ArrayBuffer.isView(values) && (kind === 'f32' || kind === 'f64'));
+            for (let i = 0; !isFit && i < values.length; ++i) {
+                requireNumber(kind, values[i], label);
+            }
             new Numbers(this.#exports.memory.buffer, at, values.length).set(values);
             return at;
         }
         Array.from(values).forEach((value, i) => {
             this.fill(kind, at + i * size);
-            this.write(kind, at + i * size, value);
+            this.write(kind, at + i * size, value, label);
         });
         return at;
     }
@@ -317,6 +336,7 @@ class Functions {
         });
         const answer = work(...given);
         if (returns === 'u64') {
+            requireNumber(returns, answer, 'the result');
             return BigInt(answer);
         }
         if (out === undefined || answer === null || answer === undefined) {

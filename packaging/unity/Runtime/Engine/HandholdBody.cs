@@ -33,13 +33,16 @@ namespace Handhold {
             world.Add(this);
         }
         private void OnDisable() {
+            if (world == null) {  // never enabled, or the world is destroyed
+                return;
+            }
             world.Remove(this);
             if (world.World.BodyIsValid(Id)) {
                 world.World.BodyRemove(Id);
             }
         }
         private void OnDestroy() {
-            if (!shape.IsNull && world.World.ShapeIsValid(shape)) {
+            if (world != null && !shape.IsNull && world.World.ShapeIsValid(shape)) {
                 world.World.ShapeRemove(shape);
             }
         }

@@ -24,7 +24,7 @@ namespace Handhold {
         public Player Id { get; private set; }
 
         private void OnEnable() {
-            if (world == null || rig == null || head == null || controllers.Length != 2 || controllers[0] == null || controllers[1] == null) {
+            if (world == null || rig == null || head == null || controllers == null || controllers.Length != 2 || controllers[0] == null || controllers[1] == null) {
                 throw new InvalidOperationException(name + ": set world, rig, head and both controllers of HandholdPlayer before the component is enabled");
             }
             PlayerDef def = PlayerDef.Default();
@@ -33,6 +33,9 @@ namespace Handhold {
             world.Add(this);
         }
         private void OnDisable() {
+            if (world == null) {  // never enabled, or the world is destroyed
+                return;
+            }
             world.Remove(this);
             if (world.World.PlayerIsValid(Id)) {
                 world.World.PlayerRemove(Id);

@@ -227,18 +227,15 @@ namespace Handhold {
             Library.Check(Native.hh_world_create(&def, &made));
             Handle = made;
         }
-        /// <summary>Destroys the world. Not inside a callback or in a match: Result.ErrorState.</summary>
+        /// <summary>Ends the world's match, if any, and destroys the world. Not inside a callback: Result.ErrorState.</summary>
         public void Dispose() {
             Library.RefuseInCallback("a world");
-            if (Match != null) {
-                throw new HandholdException(Result.ErrorState, "HH_ERROR_STATE: a world cannot be disposed while it is in a match: dispose the match first");
-            }
             Destroy();
             GC.SuppressFinalize(this);
         }
         ~World() { Destroy(); }
         private void Destroy() {
-            if (Match != null) {  // the collector may finalize the world before its match
+            if (Match != null) {
                 Match.Destroy();
             }
             if (Handle != IntPtr.Zero) {

@@ -7,7 +7,8 @@ using AOT;
 
 namespace Handhold {
     /// <summary>State of your own in a match, such as scores, which goes back and forth with the world's: hh_match_game. The functions are called
-    /// inside of calls of the match, by the thread that makes them. An exception is thrown when that call has ended.</summary>
+    /// inside of calls of the match, by the thread that makes them. The first exception is thrown when that call has ended. The call still takes
+    /// effect, as if the function had returned (Hash: 0).</summary>
     public interface IMatchGame {
         /// <summary>After each step of the world to `tick`, also when it is stepped again. What it does may depend on the world, your state, `tick` and
         /// `buttons` only: those of each slot. The array is valid during the call.</summary>
@@ -20,7 +21,8 @@ namespace Handhold {
         ulong Hash();
     }
 
-    /// <summary>A world's part in a match: a server, a client, a spectator or a sync test. Your transport carries its packets. Dispose it before its world.</summary>
+    /// <summary>A world's part in a match: a server, a client, a spectator or a sync test. Your transport carries its packets. Dispose it; its
+    /// world's Dispose ends it too.</summary>
     public sealed unsafe partial class Match : IDisposable {
         public IntPtr Handle { get; private set; }
         public World World { get; private set; }

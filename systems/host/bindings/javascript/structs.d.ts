@@ -1,7 +1,8 @@
 // Made from the C headers by systems/host/bindings/generate.py; do not edit.
 
-/** Fields that are left out keep the library's defaults, also inside of structs. */
+/** Fields that are left out keep the library's defaults, also inside of structs. Vectors and rotations are given whole. null is no id. */
 export type Given<T> = T extends (...words: never[]) => unknown ? T : T extends (infer One)[] ? Given<One>[]
+    : T extends hh_vec3 | hh_quat ? T : T extends { index: number; generation: number } ? T | null
     : T extends object ? { [Field in keyof T]?: Given<T[Field]> } : T;
 
 /** A mesh made by Handhold.createMesh. */
@@ -779,7 +780,7 @@ export interface hh_match_game {
     /** Sets your state to the copy in that place. */
     restore: ((place: number) => void) | null;
     /** Hash of your state: machines compare it together with the world's. */
-    hash: (() => bigint) | null;
+    hash: (() => bigint | number) | null;
 }
 
 /** A player's input for one tick. Fill by hh_default_match_input. */

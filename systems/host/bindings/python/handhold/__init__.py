@@ -9,7 +9,7 @@ import operator
 
 from . import _generated
 from ._generated import *  # noqa: F401,F403
-from ._generated import (HH_ERROR_STATE, HH_LEFT, HH_RIGHT, MatchCalls, MatchDef, MatchGame, MeshDef, PlayerInput, Pose, SurfaceQuery, WorldCalls,
+from ._generated import (HH_LEFT, HH_RIGHT, MatchCalls, MatchDef, MatchGame, MeshDef, PlayerInput, Pose, SurfaceQuery, WorldCalls,
                          WorldDef)
 from ._library import HandholdError, check, lib, load, optional, refuse_in_callback  # noqa: F401
 
@@ -61,10 +61,8 @@ class World(WorldCalls):
         check(lib().hh_world_create(optional(WorldDef, definition, fields), ctypes.byref(self._handle)))
 
     def close(self) -> None:
-        """Destroys the world. Not inside a callback or in a match: HH_ERROR_STATE."""
+        """Ends the world's match, if any, and destroys the world. Not inside a callback: HH_ERROR_STATE."""
         refuse_in_callback("a world cannot be closed")
-        if self._match:
-            raise HandholdError(HH_ERROR_STATE, "HH_ERROR_STATE: a world cannot be closed while it is in a match: close the match first")
         self.__del__()
 
     def __enter__(self):
@@ -79,7 +77,7 @@ class World(WorldCalls):
     __deepcopy__ = __copy__
 
     def __del__(self):
-        if getattr(self, "_match", None):  # the collector may end the world before its match
+        if getattr(self, "_match", None):
             _end_match(self._match)
         if getattr(self, "_handle", None):
             lib().hh_world_destroy(self._handle)
@@ -112,10 +110,11 @@ class World(WorldCalls):
 
 
 class Match(MatchCalls):
-    """A world's part in a match: hh_match_create. Your transport carries its packets. Close it before its world, or use it in a `with` statement.
+    """A world's part in a match: hh_match_create. Your transport carries its packets. Close it, or use it in a `with` statement; its world's close() ends it too.
 
     `game`: your own state, which goes back and forth with the world's. It has the functions step(tick, buttons), save(place), restore(place) and
-    hash() of hh_match_game; those that it lacks are not called. What a function raises is raised when the call of the match has ended."""
+    hash() of hh_match_game; those that it lacks are not called. What a function raises first is raised when the call of the match
+    has ended. That call still takes effect, as if the function had returned (hash: 0)."""
 
     def __init__(self, world, game=None, definition=None, **fields):
         if not isinstance(world, World):

@@ -1605,7 +1605,7 @@ def body_joint_parent(joint):
 
 
 class WorldCalls:
-    """Every function of a world, as a method. Calls that fail raise HandholdError and change nothing."""
+    """Every function of a world, as a method. Calls that the library refuses raise HandholdError and change nothing."""
 
     _handle = None
 
@@ -2336,7 +2336,8 @@ class WorldCalls:
 
 
 class MatchCalls:
-    """Every function of a match, as a method. Calls that fail raise HandholdError and change nothing."""
+    """Every function of a match, as a method. Calls that the library refuses raise HandholdError and change nothing. What a game's function raises is raised
+    when the call has ended, which still takes effect."""
 
     _handle = None
 

@@ -124,6 +124,7 @@ class Struct(ctypes.Structure):
         elif isinstance(kind, type) and issubclass(kind, Struct):
             given = value(kind, given)
         elif isinstance(kind, type) and issubclass(kind, ctypes.Array):
+            given = list(given)
             if len(given) != kind._length_:
                 raise TypeError(f"{name}: {kind._length_} elements are needed, {len(given)} are given")
             given = kind(*[value(kind._type_, one) for one in given])
@@ -149,7 +150,8 @@ class Struct(ctypes.Structure):
 
 
 def value(kind, given):
-    """`given` as `kind`. It may be an instance, a tuple, a dictionary, an element of a numpy array, a sequence of numbers, or None: all zero."""
+    """`given` as `kind`: an instance, a tuple, a dictionary, an element of a numpy array, a sequence of numbers, or None for all zero. A vector or
+    quaternion of another library is read by its attributes x, y, z, w."""
     if isinstance(given, kind) or not issubclass(kind, Struct):
         return given
     if isinstance(given, np.void):
@@ -160,11 +162,19 @@ def value(kind, given):
         return kind(**given)
     if isinstance(given, Struct):
         raise TypeError(f"{type(given).__name__} where {kind.__name__} is needed")
-    if isinstance(given, str) or not hasattr(given, "__iter__"):
-        raise TypeError(f"{kind.__name__} or a sequence of its fields is needed, not {given!r}")
-    words = tuple(given)
-    if len(words) < len(kind._fields_) and all(one is ctypes.c_double for _, one in kind._fields_):
-        raise TypeError(f"{kind.__name__} has {len(kind._fields_)} numbers, {len(words)} are given")
+    refused = f"{kind.__name__} or a sequence of its fields is needed, not {given!r}"
+    if isinstance(given, (str, bytes, bytearray)):
+        raise TypeError(refused)
+    try:
+        words = tuple(given)  # Blender's vectors are sequences without __iter__
+    except TypeError as error:
+        raise TypeError(refused) from error
+    if all(one is ctypes.c_double for _, one in kind._fields_):
+        names = [name for name, _ in kind._fields_]
+        if len(words) < len(names):
+            raise TypeError(f"{kind.__name__} has {len(names)} numbers, {len(words)} are given")
+        if len(words) == len(names) and all(hasattr(given, name) for name in names):
+            words = tuple(getattr(given, name) for name in names)  # Blender's quaternions begin with w
     return kind(*words)
 
 
@@ -213,8 +223,8 @@ def array(kind, given):
                 raise TypeError(f"an array of {kind.__name__} is needed, or rows of its numbers; not {given.dtype} of shape {given.shape}")
             made, count = np.ascontiguousarray(given, dtype=number), given.shape[0]
         else:
-            if given.dtype.kind == "f" and wanted.kind in "iu":
-                raise TypeError(f"whole numbers are needed, not {given.dtype}")
+            if wanted.fields is None and given.size > 0 and given.dtype.kind not in ("iu" if wanted.kind in "iu" else "iuf") and given.dtype != wanted:
+                raise TypeError(f"{'whole numbers' if wanted.kind in 'iu' else 'numbers'} are needed, not {given.dtype}")
             made = np.ascontiguousarray(given, dtype=wanted)
             count = made.size
         pointer = made.ctypes.data_as(ctypes.POINTER(kind))
