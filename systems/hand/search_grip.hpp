@@ -38,8 +38,8 @@ struct SearchGripIo {
 // that is inside a solid is held outside of it (shared/buried_palm.hpp).
 //
 // A hand searches when its grip begins, when its surroundings have moved by about k_search_step_m,
-// and after k_search_again_m of travel (hand_travel_m). In other frames it keeps what it found, also
-// if that was no surface.
+// and after k_search_again_m of travel (hand_travel_m). In other frames it keeps what it found,
+// also if that was no surface.
 //
 // A palm in an authored grip gets the triangle nearest to the authored palm within
 // PalmTuning::reach_m, without a search. Talk row 10.

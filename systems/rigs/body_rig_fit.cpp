@@ -310,7 +310,7 @@ class BodyFitter {
 
     // Sets the eye height: above the lowest vertex, or for figures without legs estimated from the
     // pelvis. Returns false if the head is not above the pelvis.
-    static constexpr double k_share_above_pelvis = 0.43;  // of a person's height at the eyes
+    static constexpr double k_share_above_pelvis = 0.43;  // share of the height of a person's eyes
     bool find_eye_height() {
         const auto above = [&](const Vec3& point) {
             return (rig_.carriers[BodyRig::k_head].rest_ms.position - point).dot(stance_.up_ms);

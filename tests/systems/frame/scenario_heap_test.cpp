@@ -102,9 +102,9 @@ struct RandomShove {
     }
 };
 
-// Some shoves still end in a contradiction. Of 840 others (seeds 161 to 1000, 30 November), 22 left
-// more than 0.1 mm at the hand, and 6 threw a crate at three times the hand's speed. Without
-// corners that overhang the other body (add_deepest_at_end): 59 and 5, and 11 of the 160 here.
+// Some shoves still end in a contradiction. Of seeds 1 to 1000 (30 November), 40 left more than
+// 0.1 mm at the hand, and 7 threw a crate at three times the hand's speed. Without corners that
+// overhang the other body (add_deepest_at_end): 70 and 5.
 TEST(Heap, NearlyAllRandomShovesKeepHandsExactAndThrowNothing) {
     constexpr int k_shoves = 160;
     constexpr double k_exact_m = 1e-4;
@@ -123,8 +123,8 @@ TEST(Heap, NearlyAllRandomShovesKeepHandsExactAndThrowNothing) {
         inexact += worst_hand_m > k_exact_m ? 1 : 0;
         thrown += fastest_seen_mps > k_throw_ratio * shove.hand_mps ? 1 : 0;
     }
-    EXPECT_LE(inexact, 8);  // 22 of 840 predicts 4 with a deviation of 2
-    EXPECT_LE(thrown, 1);   // of other 160: 3 with iterates of friction that did not converge
+    EXPECT_LE(inexact, 10);  // 40 of 1000 predicts 6 with a deviation of 2.5
+    EXPECT_LE(thrown, 1);    // of other 160: 3 with iterates of friction that did not converge
 }
 
 TEST(Heap, BodiesSpawnedInOnePlaceComeApartAtRest) {

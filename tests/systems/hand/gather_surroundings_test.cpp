@@ -165,8 +165,9 @@ TEST(GatherSurroundings, BodiesThatMoveFarChangeTheSearchSignature) {
         scene.bodies = {k_wall, other};
         const Pose from{Vec3(0.6, 0.55, 0.0), random.rotation()};
         const double corner_m = meshes.at(scene.box).contact_bvh.farthest_m();
-        const Pose by{random.vector(0.02),
-                      rotation_about(random.direction(), random.between(0.0, 0.05))};
+        const Vec3 move_m = random.vector(0.02);
+        const Vec3 axis_ws = random.direction();
+        const Pose by{move_m, rotation_about(axis_ws, random.between(0.0, 0.05))};
         const Pose to{from.position + by.position, by.rotation * from.rotation};
         double moved_m = 0.0;
         for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}) {
