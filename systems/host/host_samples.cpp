@@ -137,19 +137,19 @@ void name_invalid_pose(hh_world& host, const hh_tracking_sample& sample) {
           is_given(sample.hand_tracked[HH_LEFT], sample.hand_inferred[HH_LEFT])},
          {"the right hand", sample.hands[HH_RIGHT],
           is_given(sample.hand_tracked[HH_RIGHT], sample.hand_inferred[HH_RIGHT])}}};
-    const auto invalid = std::ranges::find_if(devices, [](const Device& device) {
-        return device.is_given && !is_valid(unchecked_pose(device.pose));
-    });
-    if (invalid == devices.end()) {
+    for (const Device& device : devices) {
+        if (!device.is_given || is_valid(unchecked_pose(device.pose))) {
+            continue;
+        }
+        host.has_named_pose = true;
+        std::array<char, 160> text{};
+        std::snprintf(text.data(), text.size(),
+                      "%s of a tracking sample is ignored: a pose needs finite numbers and a "
+                      "rotation of length 1 (hh_identity_pose has one)",
+                      device.name);
+        log_note(text.data());
         return;
     }
-    host.has_named_pose = true;
-    std::array<char, 160> text{};
-    std::snprintf(text.data(), text.size(),
-                  "%s of a tracking sample is ignored: a pose needs finite numbers and a rotation "
-                  "of length 1 (hh_identity_pose has one)",
-                  invalid->name);
-    log_note(text.data());
 }
 
 // Appends the samples given for a player, except those too far ahead. In a pause the world's clock
