@@ -181,9 +181,9 @@ void fit_one(const HandSurroundings& hand, const GripSurface& surface, const Tun
     } else if (tries_thumb(hand, pose)) {
         ++pose.thumbs_tried;
     }
-    // A fit from the last one that has led into a solid need not lead out of it again, one round a
-    // frame: the hand closes again in the next frame. Not twice in a row, so that hands at rest
-    // end.
+    // A fit from the last one may lead into a solid, and one round a frame need not lead out again:
+    // the hand closes again in the next frame. A fit in the frame of a closing asks for no other.
+    // So a hand at rest closes no more once its fit from the last one sticks (`sticks`).
     if (!pose.is_newly_closed && hand.authored == nullptr && fit.penetration_m > k_deep_m) {
         pose.closed_body = k_no_entity;
     }

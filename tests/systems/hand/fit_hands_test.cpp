@@ -213,24 +213,34 @@ TEST_F(FitHands, TurningHandMovesContinuously) {
     EXPECT_LT(test::deepest_digit_m(hand, hand.pose().target, hand.shown_bs()), 1.5e-3);
 }
 
-// Far turns about any axis, at up to 1 degree in a frame. A fit may be led into the solid, but the
-// hand then closes again and does not stay in it.
+// A hand on the floor, 6 cm before a wall, turns far about any axis. Fits from the last one lead
+// into floor and wall (28 % of the frames, up to 143 in a row), but the hand then closes again.
+// When it rests, it no longer closes.
 TEST_F(FitHands, HandsThatTurnFarDoNotStayInSolids) {
     constexpr int k_hands = 30;
-    constexpr int k_frames = 120;
+    constexpr int k_frames = 160;
+    constexpr int k_turning_frames = 80;
+    constexpr int k_resting_frames = 20;
+    const GripMesh corner = build_grip_mesh(test::make_corner_mesh(0.06));
     int deep = 0;
     int longest = 0;
     for (unsigned seed = 1; seed <= k_hands; ++seed) {
         Random random(seed);
-        FittedHand hand(beam, on_beam);
+        FittedHand hand(corner, on_beam);
         const Vec3 axis = random.direction();
-        const double far_rad = random.between(40.0, 80.0) * k_degree;
+        const double far_rad = random.between(40.0, 90.0) * k_degree;
         int in_solid = 0;
         for (int frame = 0; frame < k_frames; ++frame) {
-            const double turn_rad = far_rad * std::min(1.0, frame / 80.0);
+            const double share = std::min(1.0, static_cast<double>(frame) / k_turning_frames);
             hand.wrist_bs().rotation =
-                (on_beam.rotation * rotation_about(axis, turn_rad)).normalized();
-            hand.frame(k_unlimited_s);
+                (on_beam.rotation * rotation_about(axis, share * far_rad)).normalized();
+            hand.search();
+            hand.constrain();
+            hand.sweep();
+            if (frame >= k_frames - k_resting_frames) {
+                EXPECT_FALSE(hand.pose().is_newly_closed) << seed;
+            }
+            hand.fit(k_unlimited_s);
             const bool is_deep =
                 test::deepest_digit_m(hand, hand.pose().target, hand.shown_bs()) > 3e-3;
             in_solid = is_deep ? in_solid + 1 : 0;
@@ -238,7 +248,7 @@ TEST_F(FitHands, HandsThatTurnFarDoNotStayInSolids) {
             longest = std::max(longest, in_solid);
         }
     }
-    EXPECT_LT(deep, k_hands * k_frames / 100);
+    EXPECT_LT(deep, 8 * k_hands * k_frames / 100);
     EXPECT_LT(longest, 12);
 }
 

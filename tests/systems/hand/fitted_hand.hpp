@@ -35,6 +35,20 @@ inline Mesh make_floor_mesh() {
     return mesh;
 }
 
+// The same floor with a wall at z = -`to_wall_m`, which faces +z.
+inline Mesh make_corner_mesh(double to_wall_m) {
+    const Mesh floor = make_floor_mesh();
+    Mesh mesh = floor;
+    const auto first = static_cast<std::uint32_t>(floor.positions.size());
+    for (const Vec3& p : floor.positions) {
+        mesh.positions.emplace_back(p.x(), 0.48 - p.z(), -to_wall_m);
+    }
+    for (const auto& [a, b, c] : floor.triangles) {
+        mesh.triangles.push_back({first + a, first + b, first + c});
+    }
+    return mesh;
+}
+
 // The columns of one hand that grips one mesh, and the four stages that fit it.
 struct FittedHand {
     const HandRig rig;

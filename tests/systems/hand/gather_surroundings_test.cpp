@@ -53,6 +53,18 @@ struct OneHand {
         on_wall.anchor_bs.position = Vec3(0.0, 0.5, 0.0);
     }
 
+    // Puts another box at `pose_ws` beside the hand, from then on.
+    void place_other(const Pose& pose_ws) {
+        const Entity other = test::entity(9);
+        if (!body_pose.contains(other)) {
+            persistent_id.add(other).value = 8;
+            body_pose.add(other);
+            collider.add(other).shape = box;
+            bodies = {k_wall, other};
+        }
+        body_pose.at(other).pose_ws = pose_ws;
+    }
+
     const HandSurroundings& gather(const GripMeshLibrary* meshes) {
         gather_surroundings({.meshes = {.of_shapes = meshes,
                                         .of_bodies = own_surfaces,
@@ -125,19 +137,14 @@ TEST(GatherSurroundings, BodiesThatMoveBesideTheHandRarelyChangeTheSearchSignatu
     constexpr double k_turn_rad = 0.2;
     OneHand scene;
     const GripMeshLibrary meshes(scene.shapes);
-    const Entity other = test::entity(9);
-    scene.persistent_id.add(other).value = 8;
-    scene.body_pose.add(other);
-    scene.collider.add(other).shape = scene.box;
-    scene.bodies = {k_wall, other};
     int changes = 0;
     int search_changes = 0;
     std::uint64_t last = 0;
     std::uint64_t last_search = 0;
     for (int frame = 0; frame < k_frames; ++frame) {
         const double share = static_cast<double>(frame) / k_frames;
-        scene.body_pose.at(other).pose_ws = {Vec3(0.6, 0.55, 0.0) + share * move_m,
-                                             rotation_about(Vec3::UnitZ(), share * k_turn_rad)};
+        scene.place_other({Vec3(0.6, 0.55, 0.0) + share * move_m,
+                           rotation_about(Vec3::UnitZ(), share * k_turn_rad)});
         const HandSurroundings& hand = scene.gather(&meshes);
         ASSERT_EQ(hand.meshes.size(), 2U);
         changes += hand.signature != last ? 1 : 0;
@@ -151,18 +158,15 @@ TEST(GatherSurroundings, BodiesThatMoveBesideTheHandRarelyChangeTheSearchSignatu
     EXPECT_GE(search_changes, 6);  // the largest coordinate alone
 }
 
-// Any move or turn of a body beside the hand that takes one of its points farther than two steps:
-// the surface is searched again, however far the body's frame is from the hand.
+// A body beside the hand moves and turns, and a point as far from its frame as its corners moves by
+// more than four steps: then the surface is searched again. (Six coordinates may each change by
+// almost a step without another rounded value.)
 TEST(GatherSurroundings, BodiesThatMoveFarChangeTheSearchSignature) {
     test::Random random(4);
+    int far = 0;
     for (int i = 0; i < 300; ++i) {
         OneHand scene;
         const GripMeshLibrary meshes(scene.shapes);
-        const Entity other = test::entity(9);
-        scene.persistent_id.add(other).value = 8;
-        scene.body_pose.add(other);
-        scene.collider.add(other).shape = scene.box;
-        scene.bodies = {k_wall, other};
         const Pose from{Vec3(0.6, 0.55, 0.0), random.rotation()};
         const double corner_m = meshes.at(scene.box).contact_bvh.farthest_m();
         const Vec3 move_m = random.vector(0.02);
@@ -177,14 +181,16 @@ TEST(GatherSurroundings, BodiesThatMoveFarChangeTheSearchSignature) {
                     moved_m, (transform_point(to, point) - transform_point(from, point)).norm());
             }
         }
-        scene.body_pose.at(other).pose_ws = from;
+        scene.place_other(from);
         const std::uint64_t before = scene.gather(&meshes).search_signature;
-        scene.body_pose.at(other).pose_ws = to;
+        scene.place_other(to);
         const std::uint64_t after = scene.gather(&meshes).search_signature;
         if (moved_m > 4.0 * k_search_step_m) {
+            ++far;
             EXPECT_NE(before, after) << i;
         }
     }
+    EXPECT_GT(far, 100);
 }
 
 }  // namespace

@@ -3175,7 +3175,7 @@ namespace Handhold {
             return ticks;
         }
 
-        /// <summary>Goes back to the first wrong guess, if there is one, steps again to the present, and then one tick on. `input`, not null. `advanced` gets false, and the input is dropped, while the world is 62 ticks ahead of what is confirmed. Cost: a step, and a quarter of one for each tick stepped again: docs/reference/matches.md has figures. A spectator steps the next confirmed tick, or gets false if its inputs have not come; of `input` it takes only is_hidden.</summary>
+        /// <summary>Goes back to the first wrong guess, if there is one, steps again to the present, and then one tick on. `input`, not null. `advanced` gets false, and the input is dropped, while the world is 62 ticks ahead of the last confirmed tick. Each tick stepped again costs about a quarter of a shown step: docs/reference/matches.md has figures. A spectator steps the next confirmed tick, or gets false if its inputs have not come; of `input` it takes only is_hidden.</summary>
         public unsafe bool Advance(MatchInput input) {
             bool advanced;
             byte advanced_at;
@@ -3281,7 +3281,7 @@ namespace Handhold {
             return difference;
         }
 
-        /// <summary>Writes the inputs of all slots in the confirmed ticks after `after`, for hh_match_receive of spectators: over a reliable stream of yours, or into a file, which then has the whole match. `until` gets the last tick written, `after` if there is nothing new: 128 ticks at most, and fewer if the buffer is full. Every 90th tick carries its hash, which the reader compares. HH_ERROR_VALUE if `after` is later than what is confirmed, or too early: 320 ticks are always kept, at most 448. A spectator then needs a state. A null `buffer` asks for HH_MATCH_INPUTS_BYTES; HH_ERROR_CAPACITY for less.</summary>
+        /// <summary>Writes the inputs of all slots in the confirmed ticks after `after`, for hh_match_receive of spectators: over a reliable stream of yours, or into a file, which then has the whole match. `until` gets the last tick written, `after` if there is nothing new: 128 ticks at most, and fewer if the buffer is full. Every 90th tick carries its hash, which the reader compares. HH_ERROR_VALUE if `after` is later than the last confirmed tick, or too early: 320 ticks are always kept, at most 448. A spectator then needs a state. A null `buffer` asks for HH_MATCH_INPUTS_BYTES; HH_ERROR_CAPACITY for less.</summary>
         public unsafe void ConfirmedInputs(ulong after, out byte[] buffer, out ulong until) {
             UIntPtr size_at;
             ulong until_at;

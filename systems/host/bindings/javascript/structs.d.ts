@@ -1110,7 +1110,7 @@ export declare class WorldCalls {
 export declare class MatchCalls {
     /** How often to call hh_match_advance for so much time of the local clock since the last call, [0, 8]: a little more or less than its share, so that inputs reach the server just before they are needed. A spectator stays 9 ticks behind what has come. */
     ticksDue(elapsed_s: number): number;
-    /** Goes back to the first wrong guess, if there is one, steps again to the present, and then one tick on. `input`, not null. `advanced` gets false, and the input is dropped, while the world is 62 ticks ahead of what is confirmed. Cost: a step, and a quarter of one for each tick stepped again: docs/reference/matches.md has figures. A spectator steps the next confirmed tick, or gets false if its inputs have not come; of `input` it takes only is_hidden. */
+    /** Goes back to the first wrong guess, if there is one, steps again to the present, and then one tick on. `input`, not null. `advanced` gets false, and the input is dropped, while the world is 62 ticks ahead of the last confirmed tick. Each tick stepped again costs about a quarter of a shown step: docs/reference/matches.md has figures. A spectator steps the next confirmed tick, or gets false if its inputs have not come; of `input` it takes only is_hidden. */
     advance(input: Given<hh_match_input>): boolean;
     /** Takes a packet of the server; a spectator those of hh_match_confirmed_inputs. HH_ERROR_DATA, and no change, for bytes that are damaged or not of this match. Packets that came too late or out of order are HH_OK: what they lack comes again. Both are counted in hh_match_stats.refused. Tolerates any bytes. */
     receive(packet: Uint8Array | string | null): void;
@@ -1131,7 +1131,7 @@ export declare class MatchCalls {
     state(slot: number): Uint8Array;
     /** Steps one tick with an input for each slot, then goes back sync_ticks and steps again. */
     syncTest(inputs: Given<hh_match_input>[]): hh_match_difference;
-    /** Writes the inputs of all slots in the confirmed ticks after `after`, for hh_match_receive of spectators: over a reliable stream of yours, or into a file, which then has the whole match. `until` gets the last tick written, `after` if there is nothing new: 128 ticks at most, and fewer if the buffer is full. Every 90th tick carries its hash, which the reader compares. HH_ERROR_VALUE if `after` is later than what is confirmed, or too early: 320 ticks are always kept, at most 448. A spectator then needs a state. A null `buffer` asks for HH_MATCH_INPUTS_BYTES; HH_ERROR_CAPACITY for less. */
+    /** Writes the inputs of all slots in the confirmed ticks after `after`, for hh_match_receive of spectators: over a reliable stream of yours, or into a file, which then has the whole match. `until` gets the last tick written, `after` if there is nothing new: 128 ticks at most, and fewer if the buffer is full. Every 90th tick carries its hash, which the reader compares. HH_ERROR_VALUE if `after` is later than the last confirmed tick, or too early: 320 ticks are always kept, at most 448. A spectator then needs a state. A null `buffer` asks for HH_MATCH_INPUTS_BYTES; HH_ERROR_CAPACITY for less. */
     confirmedInputs(after: bigint): { buffer: Uint8Array; until: bigint };
     /** A player needs hh_match_state and hh_match_join: the world differs from the server's, or inputs are lost for good. A client answers for its own slot only, a spectator for any. */
     needsState(slot: number): boolean;

@@ -128,8 +128,8 @@ static inline hh_match_input hh_default_match_input(void) {
 HH_API hh_result hh_match_ticks_due(hh_match* match, double elapsed_s, uint32_t* ticks);
 /* Goes back to the first wrong guess, if there is one, steps again to the present, and then one
  * tick on. `input`, not null. `advanced` gets false, and the input is dropped, while the world is
- * 62 ticks ahead of what is confirmed. Cost: a step, and a quarter of one for each tick stepped
- * again: docs/reference/matches.md has figures. A spectator steps the next confirmed tick, or gets
+ * 62 ticks ahead of the last confirmed tick. Each tick stepped again costs about a quarter of a
+ * shown step: docs/reference/matches.md has figures. A spectator steps the next confirmed tick, or gets
  * false if its inputs have not come; of `input` it takes only is_hidden. */
 HH_API hh_result hh_match_advance(hh_match* match, const hh_match_input* input, uint8_t* advanced);
 /* Takes a packet of the server; a spectator those of hh_match_confirmed_inputs. HH_ERROR_DATA, and
@@ -189,7 +189,7 @@ HH_API hh_result hh_match_sync_test(hh_match* match, const hh_match_input* input
  * spectators: over a reliable stream of yours, or into a file, which then has the whole match.
  * `until` gets the last tick written, `after` if there is nothing new: 128 ticks at most, and fewer
  * if the buffer is full. Every 90th tick carries its hash, which the reader compares.
- * HH_ERROR_VALUE if `after` is later than what is confirmed, or too early: 320 ticks are always
+ * HH_ERROR_VALUE if `after` is later than the last confirmed tick, or too early: 320 ticks are always
  * kept, at most 448. A spectator then needs a state. A null `buffer` asks for
  * HH_MATCH_INPUTS_BYTES; HH_ERROR_CAPACITY for less. */
 HH_API hh_result hh_match_confirmed_inputs(const hh_match* match, uint64_t after, void* buffer,

@@ -14,7 +14,24 @@ from ._generated import (HH_LEFT, HH_RIGHT, MatchCalls, MatchDef, MatchGame, Mes
 from ._library import HandholdError, check, lib, load, optional, refuse_in_callback  # noqa: F401
 
 
-class Mesh:
+class _Owner:
+    """What has a handle of the library: usable in a `with` statement, and not copied, because the handle is freed once."""
+
+    _why_not_copied = ""
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *error):
+        self.close()
+
+    def __copy__(self, *_):
+        raise TypeError(f"a {type(self).__name__.lower()} cannot be copied{self._why_not_copied}")
+
+    __deepcopy__ = __copy__
+
+
+class Mesh(_Owner):
     """Triangles for shapes and surfaces: hh_mesh_create. Shapes keep what they need; close() gives the memory back."""
 
     def __init__(self, definition=None, **fields):
@@ -24,11 +41,6 @@ class Mesh:
     def close(self) -> None:
         refuse_in_callback("a mesh cannot be closed")
         self.__del__()
-
-    def __copy__(self, *_):
-        raise TypeError("a mesh cannot be copied")
-
-    __deepcopy__ = __copy__
 
     def __del__(self):
         if getattr(self, "_handle", None):
@@ -51,8 +63,10 @@ class Surfaces:
         return None
 
 
-class World(WorldCalls):
+class World(_Owner, WorldCalls):
     """A simulation: hh_world_create. Close it, or use it in a `with` statement."""
+
+    _why_not_copied = ": save() and restore() copy its state"
 
     def __init__(self, definition=None, **fields):
         self._handle = ctypes.c_void_p()
@@ -64,17 +78,6 @@ class World(WorldCalls):
         """Ends the world's match, if any, and destroys the world. Not inside a callback: HH_ERROR_STATE."""
         refuse_in_callback("a world cannot be closed")
         self.__del__()
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *error):
-        self.close()
-
-    def __copy__(self, *_):
-        raise TypeError("a world cannot be copied: save() and restore() copy its state")
-
-    __deepcopy__ = __copy__
 
     def __del__(self):
         if getattr(self, "_match", None):
@@ -109,7 +112,7 @@ class World(WorldCalls):
         self.set_surface_query(query)
 
 
-class Match(MatchCalls):
+class Match(_Owner, MatchCalls):
     """A world's part in a match: hh_match_create. Your transport carries its packets. Close it, or use it in a `with` statement; its world's close() ends it too.
 
     `game`: your own state, which goes back and forth with the world's. It has the functions step(tick, buttons), save(place), restore(place) and
@@ -135,17 +138,6 @@ class Match(MatchCalls):
         """Ends the match; the world stays as it is. Not inside a callback: HH_ERROR_STATE."""
         refuse_in_callback("a match cannot be closed")
         self.__del__()
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *error):
-        self.close()
-
-    def __copy__(self, *_):
-        raise TypeError("a match cannot be copied")
-
-    __deepcopy__ = __copy__
 
     def __del__(self):
         if getattr(self, "_handle", None):

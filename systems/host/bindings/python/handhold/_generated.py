@@ -2352,7 +2352,7 @@ class MatchCalls:
     def advance(self, input):
         """Goes back to the first wrong guess, if there is one, steps again to the present, and then one tick on.
         `input`, not null. `advanced` gets false, and the input is dropped, while the world is 62 ticks ahead
-        of what is confirmed. Cost: a step, and a quarter of one for each tick stepped again:
+        of the last confirmed tick. Each tick stepped again costs about a quarter of a shown step:
         docs/reference/matches.md has figures. A spectator steps the next confirmed tick, or gets false if its
         inputs have not come; of `input` it takes only is_hidden."""
         advanced = c_uint8()
@@ -2426,8 +2426,9 @@ class MatchCalls:
         spectators: over a reliable stream of yours, or into a file, which then has the whole match. `until`
         gets the last tick written, `after` if there is nothing new: 128 ticks at most, and fewer if the
         buffer is full. Every 90th tick carries its hash, which the reader compares. HH_ERROR_VALUE if `after`
-        is later than what is confirmed, or too early: 320 ticks are always kept, at most 448. A spectator
-        then needs a state. A null `buffer` asks for HH_MATCH_INPUTS_BYTES; HH_ERROR_CAPACITY for less."""
+        is later than the last confirmed tick, or too early: 320 ticks are always kept, at most 448. A
+        spectator then needs a state. A null `buffer` asks for HH_MATCH_INPUTS_BYTES; HH_ERROR_CAPACITY for
+        less."""
         until = c_uint64()
         return listed(c_uint8, lambda buffer, capacity, count: lib().hh_match_confirmed_inputs(self._handle, after, buffer, capacity, count, byref(until))), until.value
 
