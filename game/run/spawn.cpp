@@ -15,6 +15,7 @@
 namespace handhold {
 
 using hh::cross;
+using hh::dot;
 using hh::length;
 using hh::normalized;
 using hh::transform_point;
@@ -29,11 +30,12 @@ constexpr std::size_t k_head_checks = 12;
 constexpr double k_head_clearance_m = 0.06;  // distance from surfaces beyond the head's radius
 constexpr double k_palm_gap_m = 0.02;        // gap between the first grab's palm and the surface
 
-// The ray along which a closing hand looks for a surface, and its palm.
+// The ray along which a closing hand looks for a surface, its palm, and the head's centre then.
 struct GrabRay {
     hh::Vec3 from{};
     hh::Vec3 to{};
     hh::Vec3 palm{};
+    hh::Vec3 head{};
 };
 
 // What the search needs of a world's tuning.
@@ -52,7 +54,7 @@ struct SpawnTuning {
         const hh::Vec3 outward = hand.rotation * -hh::k_y;
         const hh::Vec3 at = transform_point(hand, palm);
         const hh::Vec3 from = at - ray_back_m * outward;
-        return {from, from + ray_length_m * outward, at};
+        return {from, from + ray_length_m * outward, at, {}};
     }
 
     HandShape shape;
@@ -107,7 +109,11 @@ Rehearsal rehearse(const Recording& recording, const SpawnTuning& tuning) {
             if (grab && !holds[side] && hh::is_valid(sample.hands[side].controller)) {
                 hh::Pose hand = sample.hands[side].controller * joints[side];
                 hand.position += origin;
-                out.grabs.push_back(tuning.ray(hand, side == 0 ? HH_LEFT : HH_RIGHT));
+                GrabRay& ray =
+                    out.grabs.emplace_back(tuning.ray(hand, side == 0 ? HH_LEFT : HH_RIGHT));
+                ray.head = hh::is_valid(sample.head)
+                               ? origin + transform_point(sample.head, tuning.head_center_m)
+                               : ray.palm;
                 ++out.onsets;
             }
             holds[side] = grab;
@@ -129,8 +135,18 @@ struct SpawnEvaluator {
     const Rehearsal& rehearsal;
     const SpawnTuning& tuning;
 
-    // Rates a start origin: the number of grabs that would find a surface, minus 0.3 for each later
-    // head position too near a surface; -1 if the first head position is too near a surface.
+    // True if nothing is between the head and the palm, or only what the palm is in.
+    bool is_seen(const hh::Vec3& head_ws, const hh::Vec3& palm_ws) const {
+        constexpr double k_in_m = 0.03;
+        const hh::Vec3 sight = palm_ws - head_ws;
+        const double length_m = length(sight);
+        return length_m <= k_in_m ||
+               !world.cast_ray(head_ws, head_ws + (1.0 - k_in_m / length_m) * sight);
+    }
+
+    // Rates a start origin: the number of grabs that would find a surface and are seen, minus 0.3
+    // for each later head position too near a surface; -1 if the first head position is too near a
+    // surface.
     double score(const hh::Pose& origin_ws) const {
         double score = 0.0;
         for (std::size_t i = 0; i < rehearsal.heads.size(); ++i) {
@@ -146,7 +162,9 @@ struct SpawnEvaluator {
             const hh::Vec3 palm_ws = transform_point(origin_ws, ray.palm);
             const hh::Vec3 from_ws = transform_point(origin_ws, ray.from);
             const hh::Vec3 to_ws = transform_point(origin_ws, ray.to);
-            if (world.cast_ray(from_ws, to_ws) || world.closest_point(palm_ws, tuning.reach_m)) {
+            const bool finds =
+                world.cast_ray(from_ws, to_ws) || world.closest_point(palm_ws, tuning.reach_m);
+            if (finds && is_seen(transform_point(origin_ws, ray.head), palm_ws)) {
                 score += 1.0;
             }
         }
@@ -221,17 +239,21 @@ std::vector<Candidate> propose(const Scene& scene, const SpawnEvaluator& evaluat
         const hh::Quat rotation = normalized(upright * hh::rotation_about(hh::k_y, angle));
         for (std::size_t i = 0; i < k_surface_points; ++i) {
             const SurfaceSampler::Sample sample = surface.draw(random);
-            // Chooses at random a side of the surface and one of the first three grabs, and places
-            // its palm next to the surface. Without grabs, places the head.
-            const double side = random.unit() < 0.5 ? -1.0 : 1.0;
-            const std::size_t grabs = std::min<std::size_t>(evaluator.rehearsal.grabs.size(), 3);
-            const auto pick = static_cast<std::size_t>(random.unit() * static_cast<double>(grabs));
-            const bool lay_head = grabs == 0;
-            const hh::Vec3 laid =
-                lay_head ? evaluator.rehearsal.heads.front() : evaluator.rehearsal.grabs[pick].palm;
-            const double gap = lay_head ? 0.5 : k_palm_gap_m;
-            const hh::Pose origin_ws{
-                sample.point_ws + side * gap * sample.normal_ws - rotation * laid, rotation};
+            // Chooses at random one of the first three grabs and places its palm before the
+            // surface. Without grabs, places the head.
+            const auto& grabs = evaluator.rehearsal.grabs;
+            const auto pick = static_cast<std::size_t>(
+                random.unit() * static_cast<double>(std::min<std::size_t>(grabs.size(), 3)));
+            const bool lays_head = grabs.empty();
+            const hh::Vec3 head = lays_head ? evaluator.rehearsal.heads.front() : grabs[pick].head;
+            const hh::Vec3 laid = lays_head ? head : grabs[pick].palm;
+            const double gap = lays_head ? 0.5 : k_palm_gap_m;
+            const hh::Pose origin_ws{sample.point_ws + gap * sample.normal_ws - rotation * laid,
+                                     rotation};
+            const hh::Vec3 to_head = transform_point(origin_ws, head) - sample.point_ws;
+            if (dot(to_head, sample.normal_ws) <= 0.0) {
+                continue;  // the player would see the surface from behind
+            }
             const double score = evaluator.score(origin_ws);
             if (score >= 0.0) {
                 best.push_back({origin_ws, score});
