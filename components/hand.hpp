@@ -35,8 +35,7 @@ struct GripSurface {
     // when the hand has travelled by k_search_again_m from there, or the signature has changed.
     Pose wrist_bs;
     std::uint64_t surroundings_signature = 0;
-    // The palm within its limits here; without a surface, outside of solids. Not set in an authored
-    // grip.
+    // The palm within its limits here. Not set without a surface and in an authored grip.
     Pose fitted_wrist_bs;
 };
 
@@ -46,8 +45,8 @@ struct PalmOffset {
     // Written by constrain_palms: the palm within its limits, or in its authored grip.
     Vec3 held_m = Vec3::Zero();
     Vec3 held_turn_rad = Vec3::Zero();
-    // Written by fit_hands. `target`: the fitted wrist. `shown`: the shown wrist, which follows the
-    // fitted wrist at up to PalmTuning::rate_mps.
+    // Written by fit_hands. `target`: the fitted wrist. `shown`: follows it at up to
+    // PalmTuning::rate_mps; PalmPose has the shown wrist, which may be moved out of surfaces.
     Vec3 target_m = Vec3::Zero();
     Vec3 target_turn_rad = Vec3::Zero();
     Vec3 shown_m = Vec3::Zero();

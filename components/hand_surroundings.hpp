@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "components/authored_grip.hpp"
@@ -38,7 +39,11 @@ struct HandSurroundings {
     // Wrist of a gripping hand: its anchor, with the tracked rotation if the hand may turn on its
     // grip. For an empty hand: the tracked wrist, in world space.
     Pose wrist_bs;
-    std::vector<PlacedMesh> meshes;  // mesh of the gripped body, then other meshes near the hand
+    // Centre of the player's head, from which the player sees the hand; null: unknown.
+    std::optional<Vec3> eye_bs = std::nullopt;
+    // Mesh of the gripped body, then other meshes near the hand. For an empty hand: those near it,
+    // in world space.
+    std::vector<PlacedMesh> meshes;
     // Hash of the body, the meshes and their poses rounded to 0.1 mm. While the hash is unchanged,
     // nothing around the hand has moved. 0: no body.
     std::uint64_t signature = 0;

@@ -47,7 +47,7 @@ std::optional<FitTerms> fit_terms_of(const World& world, const FrameCaches& cach
         !world.grip_surface.contains(hand)) {
         return std::nullopt;
     }
-    return shown_fit_terms(*around, world.grip_surface.at(hand), world.palm_offset.at(hand),
+    return shown_fit_terms(*around, world.grip_surface.at(hand), world.palm_pose.at(hand),
                            world.finger_pose.at(hand), tuning);
 }
 

@@ -20,7 +20,7 @@ void constrain_palms(const ConstrainPalmsIo& io) {
         } else if (surface.triangle != GripSurface::k_none) {
             hold(inverse(hand.wrist_bs) * surface.fitted_wrist_bs, offset);
         } else {
-            hold(inverse(surface.wrist_bs) * surface.fitted_wrist_bs, offset);
+            hold({}, offset);
         }
     }
 }

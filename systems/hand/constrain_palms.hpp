@@ -25,8 +25,7 @@ struct ConstrainPalmsIo {
 // held wrist, and fit_hands starts from it.
 //
 // A palm in an authored grip is held at the authored wrist. Talk row 10. Without a surface, held_*
-// is the correction that the last search found, from the wrist tracked then: out of the solid that
-// the palm was in, else zero.
+// is zero.
 //
 // Idempotent: a hand that is tracked at its own held pose is held there, with an error below 0.1
 // mm.

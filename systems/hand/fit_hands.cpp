@@ -5,6 +5,7 @@
 
 #include "systems/hand/shared/finger_chain.hpp"
 #include "systems/hand/shared/hand_fit.hpp"
+#include "systems/hand/shared/outside_surfaces.hpp"
 #include "systems/hand/shared/thumb_closing.hpp"
 #include "systems/rigs/authored_hand.hpp"
 #include "systems/rigs/hand_kinematics.hpp"
@@ -216,8 +217,8 @@ Pose target_in_hand(const HandSurroundings& hand, const FingerPose& pose,
 
 // Translation and rotation advance by the same share; rotation counts tilt_cost_m_per_rad metres
 // per radian. The hand moves into an authored grip at the rate at which a free body moves into the
-// hand (anchor_grabs): at PalmTuning::rate_mps alone.
-void follow_palm(const Pose& target_hs, double dt_s, bool is_authored, const PalmTuning& tuning,
+// hand (anchor_grabs): at PalmTuning::rate_mps alone. Returns true if it is there.
+bool follow_palm(const Pose& target_hs, double dt_s, bool is_authored, const PalmTuning& tuning,
                  PalmOffset& offset) {
     const Vec3 target_turn_rad = rotation_to_vector(target_hs.rotation);
     const Vec3 remaining_m = target_hs.position - offset.shown_m;
@@ -228,17 +229,18 @@ void follow_palm(const Pose& target_hs, double dt_s, bool is_authored, const Pal
     if (distance_m <= step_m) {
         offset.shown_m = target_hs.position;
         offset.shown_turn_rad = target_turn_rad;
-    } else {
-        offset.shown_m += step_m / distance_m * remaining_m;
-        offset.shown_turn_rad += step_m / distance_m * turn_rad;
+        return true;
     }
+    offset.shown_m += step_m / distance_m * remaining_m;
+    offset.shown_turn_rad += step_m / distance_m * turn_rad;
+    return false;
 }
 
 // All angles advance by the same share of their remaining change, the largest share at which none
 // exceeds its speed. Otherwise one angle would reach its target first and swing the digit through
 // the surface. Opposition is as fast as opening: the thumb of an empty hand is often in what the
-// hand grips next.
-void follow_digit(double dt_s, const FingerTuning& tuning, const FingerAngles& target,
+// hand grips next. Returns true if the digit is there.
+bool follow_digit(double dt_s, const FingerTuning& tuning, const FingerAngles& target,
                   FingerAngles& shown) {
     double share = 1.0;
     const auto limit = [&](double change_rad, double most_radps) {
@@ -259,15 +261,19 @@ void follow_digit(double dt_s, const FingerTuning& tuning, const FingerAngles& t
         advance(target.curl_rad[i], shown.curl_rad[i]);
     }
     advance(target.opposition_rad, shown.opposition_rad);
+    return share == 1.0;
 }
 
-Pose shown_wrist_ws(const HandSurroundings& hand, const PalmOffset& offset) {
-    const Pose wrist_ws =
-        hand.body_ws * Pose{hand.scale * hand.wrist_bs.position, hand.wrist_bs.rotation};
+// A hand on its way to a fit, or without one, may be in a surface.
+Pose shown_wrist_ws(const HandSurroundings& hand, bool is_fitted, const PalmOffset& offset,
+                    const FingerPose& pose) {
     const bool is_tracked = offset.shown_m.isZero() && offset.shown_turn_rad.isZero();
-    return is_tracked ? wrist_ws
-                      : wrist_ws * Pose{hand.scale * offset.shown_m,
-                                        rotation_from_vector(offset.shown_turn_rad)};
+    const Pose wrist_bs =
+        is_tracked
+            ? hand.wrist_bs
+            : hand.wrist_bs * Pose{offset.shown_m, rotation_from_vector(offset.shown_turn_rad)};
+    const Pose shown_bs = is_fitted ? wrist_bs : wrist_outside_bs(hand, {wrist_bs, pose.shown});
+    return hand.body_ws * Pose{hand.scale * shown_bs.position, shown_bs.rotation};
 }
 
 }  // namespace
@@ -289,24 +295,27 @@ void fit_hands(const FitHandsIo& io, const Tuning& tuning, StageStats& stats,
             fit_one(hand, surface, tuning, stats, offset, pose, rows);
         }
         follow_trigger(hand, io.hand.at(hand.hand).trigger, pose);
-        follow_palm(target_in_hand(hand, pose, offset), io.dt_s, hand.authored != nullptr,
-                    tuning.palm, offset);
+        const bool is_authored = hand.authored != nullptr;
+        bool is_there = follow_palm(target_in_hand(hand, pose, offset), io.dt_s, is_authored,
+                                    tuning.palm, offset);
         for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
-            follow_digit(io.dt_s, tuning.finger, pose.target[f], pose.shown[f]);
+            is_there &= follow_digit(io.dt_s, tuning.finger, pose.target[f], pose.shown[f]);
         }
-        io.palm.at(hand.hand).pose_ws = shown_wrist_ws(hand, offset);
+        const bool is_fitted = is_authored || (is_there && !is_null(pose.fitted_body));
+        io.palm.at(hand.hand).pose_ws = shown_wrist_ws(hand, is_fitted, offset, pose);
     }
 }
 
 std::optional<FitTerms> shown_fit_terms(const HandSurroundings& hand, const GripSurface& surface,
-                                        const PalmOffset& offset, const FingerPose& pose,
+                                        const PalmPose& palm, const FingerPose& pose,
                                         const Tuning& tuning) {
     if (surface.triangle == GripSurface::k_none || hand.meshes.empty()) {
         return std::nullopt;
     }
-    const Pose shown{offset.shown_m, rotation_from_vector(offset.shown_turn_rad)};
+    Pose wrist_bs = inverse(hand.body_ws) * palm.pose_ws;
+    wrist_bs.position /= hand.scale;
     HandFitGoal goal = common_goal(hand, pose, tuning.thumb);
-    goal.first = {hand.wrist_bs * shown, pose.shown};
+    goal.first = {wrist_bs, pose.shown};
     goal.is_clear = pose.is_clear;
     return fit_terms(hand, surface, goal, tuning.palm);
 }

@@ -64,7 +64,9 @@ struct FitHandsIo {
 //
 // The shown hand follows at PalmTuning::rate_mps (faster if its palm is far off: k_palm_settle_s),
 // FingerTuning::close_radps (closing) and open_radps (opening, and opposition), all angles of a
-// digit by the same share of their remaining change. Only the shown hand moves, never the player.
+// digit by the same share of their remaining change. Until it has reached a fit, and without one,
+// it is drawn on the player's side of the surfaces around it (shared/outside_surfaces.hpp); a hand
+// in an authored grip is drawn as it is. Only the shown hand moves, never the player.
 //
 // Fallbacks counted: hand_penetrates, once per closing after which the fit still penetrates by
 // millimetres.
@@ -76,7 +78,7 @@ void fit_hands(const FitHandsIo& io, const Tuning& tuning, StageStats& stats,
 // Evaluates the objective of the hand as it is shown, term by term and digit by digit, for
 // inspectors; frames do not compute this. Nullopt if the hand is on no surface.
 std::optional<FitTerms> shown_fit_terms(const HandSurroundings& hand, const GripSurface& surface,
-                                        const PalmOffset& offset, const FingerPose& pose,
+                                        const PalmPose& palm, const FingerPose& pose,
                                         const Tuning& tuning);
 
 }  // namespace handhold

@@ -2,7 +2,6 @@
 
 #include <optional>
 
-#include "systems/hand/shared/buried_palm.hpp"
 #include "systems/hand/shared/finger_chain.hpp"
 #include "systems/hand/shared/palm_fitter.hpp"
 #include "systems/hand/shared/surface_candidates.hpp"
@@ -85,7 +84,6 @@ void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats
             surface.body = hand.body;
             surface.wrist_bs = hand.wrist_bs;
             surface.surroundings_signature = hand.search_signature;
-            surface.fitted_wrist_bs = wrist_outside_bs(hand, tuning.palm);
             stats.count(Fallback::palm_no_surface);
         }
     }

@@ -92,7 +92,7 @@ class GripWatch {
     static void take_depths(const World& world, const Tuning& tuning,
                             const HandSurroundings& around, RecordedGrip& grip) {
         const auto terms = shown_fit_terms(around, world.grip_surface.at(around.hand),
-                                           world.palm_offset.at(around.hand),
+                                           world.palm_pose.at(around.hand),
                                            world.finger_pose.at(around.hand), tuning);
         double thumb_mm = 0.0;
         double fingers_mm = 0.0;

@@ -6,6 +6,7 @@
 
 #include "engine/core/check.hpp"
 #include "engine/geometry/closest_point.hpp"
+#include "engine/geometry/surface_crossings.hpp"
 #include "systems/rigs/hand_kinematics.hpp"
 
 namespace handhold {
@@ -33,27 +34,6 @@ Vec3 center_of(const HandSphere& sphere, const HandPose& pose, const HandLinkFra
                             ? pose.wrist_bs
                             : frames[static_cast<std::size_t>(sphere.finger)][sphere.link];
     return transform_point(frame, sphere.center_ls);
-}
-
-// True if the segment crosses the surface an odd number of times. Layers closer together than
-// k_layer_m count as one.
-bool crosses_oddly(const TriangleBvh& surface, Vec3 from, const Vec3& to) {
-    constexpr double k_layer_m = 1e-6;
-    constexpr int k_most = 16;
-    bool is_odd = false;
-    for (int i = 0; i < k_most; ++i) {
-        const auto hit = surface.cast_ray(from, to);
-        if (!hit) {
-            break;
-        }
-        is_odd = !is_odd;
-        const double left_m = (to - hit->point).norm();
-        if (left_m <= k_layer_m) {
-            break;
-        }
-        from = hit->point + k_layer_m / left_m * (to - hit->point);
-    }
-    return is_odd;
 }
 
 const HandSphere* nearest_of(std::span<const HandSphere> spheres) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "components/authored_grip.hpp"
+#include "engine/geometry/surface_crossings.hpp"
 #include "systems/rigs/authored_hand.hpp"
 #include "systems/rigs/hand_kinematics.hpp"
 
@@ -115,6 +116,16 @@ bool PalmFitter::enters_solid(const FittedPalm& held) const {
         from = hit->point + 2.0 * k_crossing_m * direction;
     }
     return entered > 0;
+}
+
+bool PalmFitter::disappears(const FittedPalm& held) const {
+    if (!hand_.eye_bs) {
+        return false;
+    }
+    const TriangleBvh& surface = placed_.mesh->contact_bvh;
+    const Vec3 eye = inverse_transform_point(placed_.pose, *hand_.eye_bs);
+    const Vec3 to = palm_in(placed_.pose, *hand_.rig, held.surface.fitted_wrist_bs).center;
+    return crosses_oddly(surface, eye, to) && !crosses_oddly(surface, eye, palm_.center);
 }
 
 double PalmFitter::crossing_depth_m(const FittedPalm& held) const {

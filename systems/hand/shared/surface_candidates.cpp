@@ -13,7 +13,8 @@ constexpr double k_max_direct_sync_m = 0.05;
 // A cheaper surface with clearance is good enough: the surroundings are not searched.
 constexpr double k_good_enough_cost_m = 0.02;
 constexpr double k_inside_cost_m = 0.05;  // penalty for a backface inside a solid
-// Penalty for a path into a solid; as much as 25 mm of palm penetration.
+// Penalty for a path into a solid or out of the player's sight; as much as 25 mm of palm
+// penetration.
 constexpr double k_enters_solid_cost_m = 0.3;
 constexpr double k_penetration_cost = 12.0;  // cost per metre of palm penetration
 constexpr double k_finger_cost = 9.0;        // cost per metre of finger penetration
@@ -49,7 +50,7 @@ GripSurface SurfaceCandidates::best(const GripSurface& last) {
             evaluate(candidates[i], fit(candidates[i]));
         }
     }
-    return best_.is_inside ? GripSurface{} : best_.surface;
+    return best_.is_hidden ? GripSurface{} : best_.surface;
 }
 
 // Searches from the triangles nearest to six points around the palm. Does not stop early when it
@@ -86,11 +87,10 @@ bool SurfaceCandidates::is_eligible(const Candidate& candidate) const {
 
 // Evaluates a candidate; `held` is its fit.
 void SurfaceCandidates::evaluate(const Candidate& candidate, FittedPalm held) {
-    const bool is_inside = fitter_.is_backface(candidate) && fitter_.is_inside(candidate);
-    const double placement_m = placement_cost_m(candidate, held, is_inside);
-    add_crossing_depth(placement_m, held);
-    Evaluated evaluated = scored(held, placement_m);
-    evaluated.is_inside = is_inside;
+    const Placement placement = placement_of(candidate, held);
+    add_crossing_depth(placement.cost_m, held);
+    Evaluated evaluated = scored(held, placement.cost_m);
+    evaluated.is_hidden = placement.is_hidden;
     if (is_cheaper(evaluated.cost_m)) {
         best_ = evaluated;
         has_best_ = true;
@@ -115,18 +115,23 @@ void SurfaceCandidates::add_crossing_depth(double placement_m, FittedPalm& held)
     }
 }
 
-// Returns the penalty `placement` of the class comment. Only a lower bound if the candidate already
-// costs more than the best one.
-double SurfaceCandidates::placement_cost_m(const Candidate& candidate, const FittedPalm& held,
-                                           bool is_inside) const {
-    double cost_m = 0.0;
+// Only a lower bound of the cost if the candidate already costs more than the best one.
+SurfaceCandidates::Placement SurfaceCandidates::placement_of(const Candidate& candidate,
+                                                             const FittedPalm& held) const {
+    Placement placement;
     if (fitter_.is_backface(candidate)) {
-        cost_m += tuning_.backface_cost_m + (is_inside ? k_inside_cost_m : 0.0);
+        placement.is_hidden = fitter_.is_inside(candidate);
+        placement.cost_m = tuning_.backface_cost_m + (placement.is_hidden ? k_inside_cost_m : 0.0);
     }
-    if (is_cheaper(held.sync_m + cost_m) && fitter_.enters_solid(held)) {
-        cost_m += k_enters_solid_cost_m;
+    if (!is_cheaper(held.sync_m + placement.cost_m)) {
+        return placement;
     }
-    return cost_m;
+    const bool disappears = fitter_.disappears(held);
+    placement.is_hidden |= disappears;
+    if (disappears || fitter_.enters_solid(held)) {
+        placement.cost_m += k_enters_solid_cost_m;
+    }
+    return placement;
 }
 
 SurfaceCandidates::Evaluated SurfaceCandidates::scored(const FittedPalm& held, double placement_m) {

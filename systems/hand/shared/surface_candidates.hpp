@@ -30,8 +30,8 @@ class SurfaceCandidates {
 
     // Returns the best surface; call once. The first candidate is the place of `last` if the search
     // visits it, else the triangle with the smallest closed-form cost. The result's triangle is
-    // k_none if there is no surface within reach, or the best one is inside a solid. Precondition:
-    // last.triangle is k_none or a triangle of this mesh.
+    // k_none if there is no surface within reach, or if a palm on the best one would be hidden (see
+    // Placement). Precondition: last.triangle is k_none or a triangle of this mesh.
     GripSurface best(const GripSurface& last);
 
   private:
@@ -40,7 +40,13 @@ class SurfaceCandidates {
         GripSurface surface;
         double cost_m = 0.0;
         bool has_clearance = false;
-        bool is_inside = false;  // a palm here would be inside a solid
+        bool is_hidden = false;  // see Placement
+    };
+    // The penalty `placement` of the class comment.
+    struct Placement {
+        double cost_m = 0.0;
+        // A palm here would be inside a solid, or would pass a surface that then hides it.
+        bool is_hidden = false;
     };
 
     void search_surroundings();
@@ -48,8 +54,7 @@ class SurfaceCandidates {
     bool is_beside(const Candidate& candidate) const;
     bool is_eligible(const Candidate& candidate) const;
     FittedPalm fit(const Candidate& candidate) const;
-    double placement_cost_m(const Candidate& candidate, const FittedPalm& held,
-                            bool is_inside) const;
+    Placement placement_of(const Candidate& candidate, const FittedPalm& held) const;
     void add_crossing_depth(double placement_m, FittedPalm& held) const;
     static Evaluated scored(const FittedPalm& held, double placement_m);
     bool is_cheaper(double cost_m) const { return !has_best_ || cost_m < best_.cost_m; }

@@ -282,7 +282,7 @@ TEST_F(FitHands, OtherThumbsCostNoMoreAndTheHandRestsAfterThem) {
         FittedHand hand(beam, wrist_bs);
         const auto cost_m2 = [&] {
             const auto terms = shown_fit_terms(hand.hands.front(), hand.surface.at(k_right),
-                                               hand.offset.at(k_right), hand.pose(), hand.tuning);
+                                               hand.palm.at(k_right), hand.pose(), hand.tuning);
             return terms ? sum_of(*terms) : 0.0;
         };
         hand.frame(k_unlimited_s);

@@ -104,8 +104,8 @@ TEST_F(FitTermsOfHand, ShownHandHasTheTermsOfItsFit) {
         hand.search();
         hand.frame(k_unlimited_s);
         const PalmOffset& offset = hand.offset.at(k_right);
-        const auto terms = shown_fit_terms(hand.hands.front(), hand.surface.at(k_right), offset,
-                                           hand.pose(), hand.tuning);
+        const auto terms = shown_fit_terms(hand.hands.front(), hand.surface.at(k_right),
+                                           hand.palm.at(k_right), hand.pose(), hand.tuning);
         ASSERT_TRUE(terms);
         const Vec3 moved_m =
             hand.palm_center_bs() - transform_point(hand.wrist_bs(), rig.palm_center_hs);

@@ -103,6 +103,27 @@ TEST(GatherSurroundings, ListsGrippedBodysMeshFirst) {
     EXPECT_EQ(scene.counted(), 0U);
 }
 
+// So that it can be drawn outside of them.
+TEST(GatherSurroundings, ListsMeshesNearAnEmptyHandInWorldSpace) {
+    OneHand scene;
+    const GripMeshLibrary meshes(scene.shapes);
+    scene.bodies = {k_wall};
+    scene.grab.at(k_right) = {};
+    scene.body_pose.at(k_wall).pose_ws.position = Vec3(0.0, -0.5, 0.0);
+    scene.head.at(k_player).pose_ps.position = Vec3(0.0, 0.5, 0.0);
+    for (const double height_m : {0.1, 0.9}) {
+        scene.hand.at(k_right).pose_ps.position = Vec3(0.0, height_m, 0.0);
+        const HandSurroundings& hand = scene.gather(&meshes);
+        EXPECT_EQ(hand.body, k_no_entity);
+        EXPECT_FALSE(hand.is_gripping);
+        EXPECT_EQ(hand.wrist_bs.position, Vec3(0.0, height_m, 0.0));
+        ASSERT_TRUE(hand.eye_bs);
+        EXPECT_EQ(*hand.eye_bs, Vec3(0.0, 0.5, 0.0));
+        EXPECT_EQ(hand.meshes.size(), height_m < 0.5 ? 1U : 0U);
+    }
+    EXPECT_EQ(scene.surroundings.front().body_ws.position, Vec3::Zero());
+}
+
 TEST(GatherSurroundings, CountsGrippedBodyWithoutGripMesh) {
     OneHand scene;
     const GripMeshLibrary none;

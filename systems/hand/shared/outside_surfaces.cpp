@@ -1,0 +1,98 @@
+#include "systems/hand/shared/outside_surfaces.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "engine/geometry/surface_crossings.hpp"
+#include "systems/rigs/hand_kinematics.hpp"
+
+namespace handhold {
+namespace {
+
+struct Exit {
+    Vec3 direction_bs = Vec3::Zero();  // unit, out of the surface
+    double depth_m = 0.0;              // > 0 if there is one
+};
+
+// The palm as one mesh has it near.
+class PalmNear {
+  public:
+    PalmNear(const PlacedMesh& placed, const Vec3& eye_bs, const Vec3& palm_bs)
+        : placed_(placed), palm_(inverse_transform_point(placed.pose, palm_bs)) {
+        const auto near = surface().closest_point(palm_, k_deepest_m);
+        is_near_ = near.has_value();
+        distance_m_ = near ? near->distance_m : k_deepest_m;
+        is_behind_ = is_near_ &&
+                     crosses_oddly(surface(), inverse_transform_point(placed.pose, eye_bs), palm_);
+    }
+
+    // The way out for a sphere of the hand, if its depth is more than that of `deepest`.
+    void exit_of(const Vec3& center_bs, double radius_m, Exit& deepest) const {
+        constexpr double k_slack_m = 1e-9;
+        constexpr double k_same_place_m = 1e-6;
+        const Vec3 center = inverse_transform_point(placed_.pose, center_bs);
+        const double from_palm_m = (center - palm_).norm();
+        if (!is_near_ || (!is_behind_ && distance_m_ > from_palm_m + radius_m)) {
+            return;
+        }
+        const auto near = surface().closest_point(center, distance_m_ + from_palm_m + k_slack_m);
+        if (!near || near->distance_m < k_same_place_m) {
+            return;
+        }
+        const double side = crosses_oddly(surface(), palm_, center) != is_behind_ ? -1.0 : 1.0;
+        const double depth_m = radius_m - side * near->distance_m;
+        if (depth_m > deepest.depth_m) {
+            const Vec3 direction = side / near->distance_m * (center - near->point);
+            deepest = {placed_.pose.rotation * direction, depth_m};
+        }
+    }
+
+  private:
+    const TriangleBvh& surface() const { return placed_.mesh->contact_bvh; }
+
+    const PlacedMesh& placed_;
+    Vec3 palm_;
+    bool is_near_ = false;
+    bool is_behind_ = false;
+    double distance_m_ = 0.0;
+};
+
+// Of the deepest end of a hand's capsules.
+Exit exit_of_hand(const HandSurroundings& hand, const HandPose& pose) {
+    const Vec3 palm_bs = transform_point(pose.wrist_bs, hand.rig->palm_center_hs);
+    Exit deepest;
+    for (const PlacedMesh& placed : hand.meshes) {
+        const PalmNear near(placed, *hand.eye_bs, palm_bs);
+        const auto add = [&](const Vec3& center_hs, double radius_m) {
+            near.exit_of(transform_point(pose.wrist_bs, center_hs), radius_m, deepest);
+        };
+        for (const PalmCapsule& capsule : hand.rig->palm) {
+            add(capsule.a_hs, capsule.radius_m);
+            add(capsule.b_hs, capsule.radius_m);
+        }
+        for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
+            const FingerRig& finger = hand.rig->fingers[f];
+            const auto points_hs = finger_points(finger, pose.fingers[f]);
+            for (std::size_t i = 0; i < finger.link_count; ++i) {
+                add(points_hs[i + 1], finger.radius_m[i]);
+            }
+        }
+    }
+    return deepest;
+}
+
+}  // namespace
+
+Pose wrist_outside_bs(const HandSurroundings& hand, const HandPose& pose) {
+    HandPose moved = pose;
+    for (int i = 0; hand.eye_bs && i < k_most_faces; ++i) {
+        const Exit exit = exit_of_hand(hand, moved);
+        if (exit.depth_m <= 0.0) {
+            break;
+        }
+        moved.wrist_bs.position += exit.depth_m * exit.direction_bs;
+    }
+    return moved.wrist_bs;
+}
+
+}  // namespace handhold
