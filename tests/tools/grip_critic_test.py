@@ -13,6 +13,7 @@ sys.path.insert(0, str(ROOT / "tools" / "lab"))
 import numpy as np
 
 from grips import critic, primitives, scoring, sheets
+from grips import labels as people
 from grips.grasps import FINGERS, read_grasps
 from grips.surface import Surface
 from pages import files
@@ -211,15 +212,22 @@ class Sheets(unittest.TestCase):
             path.write_text("\n".join(lines[:-1]) + "\n")
             self.assertRaisesRegex(files.FormatError, "expected a row of sheet", sheets.read_labels, path, key)
 
-    def test_labels_become_rows_for_the_critic(self):
-        key = [{"mesh": "a", "variant": 0, "id": i} for i in range(3)]
-        values = np.arange(3.0 * len(critic.FEATURES)).reshape(3, -1)
+    def test_labels_become_rows_for_the_critic_without_hidden_hands(self):
+        key = [{"mesh": "a", "variant": 0, "id": i} for i in range(4)]
+        values = np.arange(4.0 * len(critic.FEATURES)).reshape(4, -1)
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "labels.csv"
-            path.write_text(sheets.labels_csv([("ugly", "a, \"quoted\" one"), ("acceptable", ""), ("convincing", "")], key, values))
+            path.write_text(sheets.labels_csv([("ugly", "a, \"quoted\" one"), ("acceptable", ""), ("convincing", ""), ("hidden", "")], key, values))
             read, labels, groups = critic.read_labels(path)
-        np.testing.assert_array_equal(read, values)
+        np.testing.assert_array_equal(read, values[:3])
         self.assertEqual((labels.tolist(), groups.tolist()), ([0, 1, 2], ["a"] * 3))
+
+    def test_shares_leave_out_hidden_hands(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "labels.csv"
+            path.write_text("label\nhidden\nugly\nconvincing\nhidden\n")
+            shares = people.shares(path)
+        self.assertEqual([shares[word]["value"] for word in critic.LABELS], [0.5, 0.0, 0.5])
 
 
 if __name__ == "__main__":

@@ -33,10 +33,11 @@ class Stills(unittest.TestCase):
             game.write_text("#!/bin/sh\n")
             game.chmod(0o700)
             (folder / "frames.csv").write_text("\n".join(rows) + "\n")
-            arguments = argparse.Namespace(game=game, scene="station", climbers=None, limit=[], count=5, fov=26.0, width=60, height=50)
-            self.assertEqual(films.draw_stills(arguments, None, folder, 7), 2)
+            arguments = argparse.Namespace(game=[game], scene="station", climbers=None, limit=[], count=5, fov=26.0, width=60, height=50)
+            stills = films.draw_stills(arguments, game, None, folder, 7)
             shots = json.loads((folder / "shots.json").read_text())["shots"]
-        self.assertEqual([(shot["name"], shot["side"], round(shot["at_s"] * films.HZ)) for shot in shots], [("s7", "left", 61), ("s8", "right", 126)])
+        self.assertEqual([(shot["name"], shot["side"], round(shot["at_s"] * films.HZ)) for shot in shots], [("drawn7", "left", 61), ("drawn8", "right", 126)])
+        self.assertEqual([(still["side"], still["mesh"], still["frame"]) for still in stills], [("left", "rail", 60), ("right", "rail", 125)])
 
 
 if __name__ == "__main__":

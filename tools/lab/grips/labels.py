@@ -14,11 +14,11 @@ def wilson(successes, count):
 
 
 def shares(path):
-    """{label: {value, low, high}} of a filled labels.csv of `grip_gallery --sheets`."""
+    """{label: {value, low, high}} of a filled labels.csv of `grip_gallery --sheets`, among the hands that can be seen."""
     rows = list(csv.DictReader(files.read_text(path).splitlines()))
     for line, row in enumerate(rows, 2):
-        if row.get("label") not in critic.LABELS:
-            raise files.FormatError(f"{path}: line {line}: label: expected one of {', '.join(critic.LABELS)}")
+        critic.check_label(row.get("label"), f"{path}: line {line}")
+    rows = [row for row in rows if row["label"] != critic.HIDDEN]
     if not rows:
         raise files.FormatError(f"{path}: expected at least one label")
     found = {}

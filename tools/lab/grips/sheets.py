@@ -49,8 +49,7 @@ def read_labels(path, key):
     """[(label, reason)] in the order of the key."""
     rows = list(csv.DictReader(files.read_text(path).splitlines()))
     for line, row in enumerate(rows, 2):
-        if row.get("label") not in critic.LABELS:
-            raise files.FormatError(f"{path}: line {line}: label: expected one of {', '.join(critic.LABELS)}")
+        critic.check_label(row.get("label"), f"{path}: line {line}")
     found = {tuple(row.get(name) for name in FIELDS[:3]): row for row in rows}
     places = [tuple(str(one[name]) for name in FIELDS[:3]) for one in key]
     missing = [place for place in places if place not in found]
@@ -79,6 +78,8 @@ def labels_csv(labels, key, values):
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(("label", "reason", "group", *critic.FEATURES))
     for (label, reason), one, row in zip(labels, key, values):
+        if label == critic.HIDDEN:
+            continue
         writer.writerow((critic.LABELS.index(label), reason, one["mesh"], *(f"{value:.6g}" for value in row)))
     return out.getvalue()
 
