@@ -41,9 +41,7 @@ struct HandSurroundings {
     Pose wrist_bs;
     // Centre of the player's head, from which the player sees the hand; null: unknown.
     std::optional<Vec3> eye_bs = std::nullopt;
-    // Mesh of the gripped body, then other meshes near the hand. For an empty hand: those near it,
-    // in world space.
-    std::vector<PlacedMesh> meshes;
+    std::vector<PlacedMesh> meshes;  // mesh of the gripped body, then other meshes near the hand
     // Hash of the body, the meshes and their poses rounded to 0.1 mm. While the hash is unchanged,
     // nothing around the hand has moved. 0: no body.
     std::uint64_t signature = 0;

@@ -264,16 +264,16 @@ bool follow_digit(double dt_s, const FingerTuning& tuning, const FingerAngles& t
     return share == 1.0;
 }
 
-// A hand on its way to a fit, or without one, may be in a surface.
 Pose shown_wrist_ws(const HandSurroundings& hand, bool is_fitted, const PalmOffset& offset,
                     const FingerPose& pose) {
     const bool is_tracked = offset.shown_m.isZero() && offset.shown_turn_rad.isZero();
-    const Pose wrist_bs =
-        is_tracked
-            ? hand.wrist_bs
-            : hand.wrist_bs * Pose{offset.shown_m, rotation_from_vector(offset.shown_turn_rad)};
-    const Pose shown_bs = is_fitted ? wrist_bs : wrist_outside_bs(hand, {wrist_bs, pose.shown});
-    return hand.body_ws * Pose{hand.scale * shown_bs.position, shown_bs.rotation};
+    Pose wrist_bs = is_tracked ? hand.wrist_bs
+                               : hand.wrist_bs * Pose{offset.shown_m,
+                                                      rotation_from_vector(offset.shown_turn_rad)};
+    if (!is_fitted) {
+        wrist_bs = wrist_outside_bs(hand, {wrist_bs, pose.shown});
+    }
+    return hand.body_ws * Pose{hand.scale * wrist_bs.position, wrist_bs.rotation};
 }
 
 }  // namespace

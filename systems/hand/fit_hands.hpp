@@ -64,9 +64,9 @@ struct FitHandsIo {
 //
 // The shown hand follows at PalmTuning::rate_mps (faster if its palm is far off: k_palm_settle_s),
 // FingerTuning::close_radps (closing) and open_radps (opening, and opposition), all angles of a
-// digit by the same share of their remaining change. Until it has reached a fit, and without one,
-// it is drawn on the player's side of the surfaces around it (shared/outside_surfaces.hpp); a hand
-// in an authored grip is drawn as it is. Only the shown hand moves, never the player.
+// digit by the same share of their remaining change. A gripping hand that has no fit, or
+// has not reached it, is drawn on the player's side of the surfaces around it
+// (shared/outside_surfaces.hpp), except in an authored grip. Empty hands are drawn as tracked. Only the shown hand moves, never the player.
 //
 // Fallbacks counted: hand_penetrates, once per closing after which the fit still penetrates by
 // millimetres.

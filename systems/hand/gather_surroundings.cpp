@@ -78,9 +78,7 @@ class Gatherer {
         out.eye_bs = head_ws.position / scale;
         const bool body_exists =
             io_.body_pose.contains(grab.body) || io_.origin.contains(grab.body);
-        Signatures signatures;
         if (grab.kind == GripKind::none || !body_exists) {
-            add_nearby_meshes(out, signatures);
             return;
         }
         const BodyHold* const hold_on_part =
@@ -97,6 +95,7 @@ class Gatherer {
             hold != nullptr && hold->body == grab.body) {
             out.authored = &hold->hand;
         }
+        Signatures signatures;
         const GripMesh* const mesh = hold_on_part != nullptr
                                          ? enter_part(*hold_on_part, grab.body, out, signatures)
                                          : mesh_of(grab.body, scale);

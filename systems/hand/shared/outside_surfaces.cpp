@@ -26,24 +26,20 @@ class PalmNear {
                      crosses_oddly(surface(), inverse_transform_point(placed.pose, eye_bs), palm_);
     }
 
-    // The way out for a sphere of the hand, if its depth is more than that of `deepest`.
-    void exit_of(const Vec3& center_bs, double radius_m, Exit& deepest) const {
+    // The way out for a point of the hand, if it is deeper than `deepest`.
+    void exit_of(const Vec3& point_bs, Exit& deepest) const {
         constexpr double k_slack_m = 1e-9;
         constexpr double k_same_place_m = 1e-6;
-        const Vec3 center = inverse_transform_point(placed_.pose, center_bs);
-        const double from_palm_m = (center - palm_).norm();
-        if (!is_near_ || (!is_behind_ && distance_m_ > from_palm_m + radius_m)) {
+        const Vec3 point = inverse_transform_point(placed_.pose, point_bs);
+        const double from_palm_m = (point - palm_).norm();
+        const bool is_surely_before = !is_behind_ && distance_m_ > from_palm_m;
+        if (!is_near_ || is_surely_before || crosses_oddly(surface(), palm_, point) == is_behind_) {
             return;
         }
-        const auto near = surface().closest_point(center, distance_m_ + from_palm_m + k_slack_m);
-        if (!near || near->distance_m < k_same_place_m) {
-            return;
-        }
-        const double side = crosses_oddly(surface(), palm_, center) != is_behind_ ? -1.0 : 1.0;
-        const double depth_m = radius_m - side * near->distance_m;
-        if (depth_m > deepest.depth_m) {
-            const Vec3 direction = side / near->distance_m * (center - near->point);
-            deepest = {placed_.pose.rotation * direction, depth_m};
+        const auto near = surface().closest_point(point, distance_m_ + from_palm_m + k_slack_m);
+        if (near && near->distance_m > std::max(deepest.depth_m, k_same_place_m)) {
+            const Vec3 direction = (near->point - point) / near->distance_m;
+            deepest = {placed_.pose.rotation * direction, near->distance_m};
         }
     }
 
@@ -57,24 +53,23 @@ class PalmNear {
     double distance_m_ = 0.0;
 };
 
-// Of the deepest end of a hand's capsules.
 Exit exit_of_hand(const HandSurroundings& hand, const HandPose& pose) {
     const Vec3 palm_bs = transform_point(pose.wrist_bs, hand.rig->palm_center_hs);
     Exit deepest;
     for (const PlacedMesh& placed : hand.meshes) {
         const PalmNear near(placed, *hand.eye_bs, palm_bs);
-        const auto add = [&](const Vec3& center_hs, double radius_m) {
-            near.exit_of(transform_point(pose.wrist_bs, center_hs), radius_m, deepest);
+        const auto add = [&](const Vec3& point_hs) {
+            near.exit_of(transform_point(pose.wrist_bs, point_hs), deepest);
         };
         for (const PalmCapsule& capsule : hand.rig->palm) {
-            add(capsule.a_hs, capsule.radius_m);
-            add(capsule.b_hs, capsule.radius_m);
+            add(capsule.a_hs);
+            add(capsule.b_hs);
         }
         for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
             const FingerRig& finger = hand.rig->fingers[f];
             const auto points_hs = finger_points(finger, pose.fingers[f]);
             for (std::size_t i = 0; i < finger.link_count; ++i) {
-                add(points_hs[i + 1], finger.radius_m[i]);
+                add(points_hs[i + 1]);
             }
         }
     }

@@ -103,25 +103,19 @@ TEST(GatherSurroundings, ListsGrippedBodysMeshFirst) {
     EXPECT_EQ(scene.counted(), 0U);
 }
 
-// So that it can be drawn outside of them.
-TEST(GatherSurroundings, ListsMeshesNearAnEmptyHandInWorldSpace) {
+TEST(GatherSurroundings, EyeIsInTheBodysFrameAndInTheHandsMetres) {
     OneHand scene;
     const GripMeshLibrary meshes(scene.shapes);
-    scene.bodies = {k_wall};
-    scene.grab.at(k_right) = {};
-    scene.body_pose.at(k_wall).pose_ws.position = Vec3(0.0, -0.5, 0.0);
-    scene.head.at(k_player).pose_ps.position = Vec3(0.0, 0.5, 0.0);
-    for (const double height_m : {0.1, 0.9}) {
-        scene.hand.at(k_right).pose_ps.position = Vec3(0.0, height_m, 0.0);
+    const Pose body_ws{Vec3(1.0, 2.0, 3.0), rotation_about(Vec3::UnitY(), 0.7)};
+    const Vec3 eye_bs(0.1, 0.9, -0.2);
+    scene.body_pose.at(k_wall).pose_ws = body_ws;
+    for (const double scale : {1.0, 0.5}) {
+        scene.origin.at(k_player).scale = scale;
+        scene.head.at(k_player).pose_ps.position = transform_point(body_ws, eye_bs);
         const HandSurroundings& hand = scene.gather(&meshes);
-        EXPECT_EQ(hand.body, k_no_entity);
-        EXPECT_FALSE(hand.is_gripping);
-        EXPECT_EQ(hand.wrist_bs.position, Vec3(0.0, height_m, 0.0));
         ASSERT_TRUE(hand.eye_bs);
-        EXPECT_EQ(*hand.eye_bs, Vec3(0.0, 0.5, 0.0));
-        EXPECT_EQ(hand.meshes.size(), height_m < 0.5 ? 1U : 0U);
+        EXPECT_LT((*hand.eye_bs - eye_bs / scale).norm(), 1e-12);
     }
-    EXPECT_EQ(scene.surroundings.front().body_ws.position, Vec3::Zero());
 }
 
 TEST(GatherSurroundings, CountsGrippedBodyWithoutGripMesh) {

@@ -13,7 +13,6 @@ namespace {
 using test::k_unlimited_s;
 
 constexpr double k_frame_s = 1.0 / 90.0;
-// A capsule's end may be as deep as its radius before the axis is inside; edges are not tested.
 constexpr double k_same_m = 1e-6;
 
 // A block two metres wide and `thick_m` thick with its top in the plane y = 0.
@@ -51,45 +50,47 @@ Vec3 eye_above(Random& random) {
     return {x, y, random.between(-0.3, 0.3)};
 }
 
-enum class Part { axes, surfaces };
-
-// Height of the lowest axis, or of the lowest surface, of the shown hand's capsules.
-double lowest_m(FittedHand& hand, Part part) {
+// Height of the lowest axis of the shown hand's capsules.
+double lowest_m(FittedHand& hand) {
     const Pose wrist = hand.shown_bs();
     double lowest = 1.0;
-    const auto add = [&](const Vec3& at_hs, double radius_m) {
-        lowest = std::min(
-            lowest, transform_point(wrist, at_hs).y() - (part == Part::surfaces ? radius_m : 0.0));
+    const auto add = [&](const Vec3& at_hs) {
+        lowest = std::min(lowest, transform_point(wrist, at_hs).y());
     };
     for (const PalmCapsule& capsule : hand.rig.palm) {
-        add(capsule.a_hs, capsule.radius_m);
-        add(capsule.b_hs, capsule.radius_m);
+        add(capsule.a_hs);
+        add(capsule.b_hs);
     }
     for (std::size_t f = 0; f < hand.rig.fingers.size(); ++f) {
         const FingerRig& finger = hand.rig.fingers[f];
         const auto points = finger_points(finger, hand.pose().shown[f]);
         for (std::size_t i = 0; i < finger.link_count; ++i) {
-            add(points[i + 1], finger.radius_m[i]);
+            add(points[i + 1]);
         }
     }
     return lowest;
 }
 
-// A gripping hand, or an empty one beside the same mesh.
+// A hand that grips a mesh, seen from `eye_bs`.
 struct SeenHand : FittedHand {
-    SeenHand(const GripMesh& mesh, const Pose& wrist_bs, const Vec3& eye_bs, bool is_gripping)
+    SeenHand(const GripMesh& mesh, const Pose& wrist_bs, const Vec3& eye_bs)
         : FittedHand(mesh, wrist_bs) {
         hands.front().eye_bs = eye_bs;
-        hands.front().is_gripping = is_gripping;
-        tracking.at(k_right).pressed = is_gripping;
-        if (!is_gripping) {
-            hands.front().body = k_no_entity;
+    }
+    // Draws a relaxed hand.
+    Pose outside_bs() {
+        HandPose relaxed{wrist_bs(), {}};
+        for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+            relaxed.fingers[f] = relaxed_angles(rig.fingers[f]);
         }
+        fingers.at(k_right).shown = relaxed.fingers;
+        palm.at(k_right).pose_ws = wrist_outside_bs(hands.front(), relaxed);
+        return palm.at(k_right).pose_ws;
     }
 };
 
-// Closed or an open sheet, whatever its winding: the player sees the whole hand.
-TEST(OutsideSurfaces, EmptyHandInAWallIsShownBeforeIt) {
+// Closed or an open sheet, whatever its winding.
+TEST(OutsideSurfaces, HandInAWallIsShownBeforeIt) {
     const Mesh block = make_block_mesh();
     const Mesh sheet = test::make_floor_mesh();
     const HandRig rig = builtin_hand_rig(HandSide::right);
@@ -98,9 +99,9 @@ TEST(OutsideSurfaces, EmptyHandInAWallIsShownBeforeIt) {
         Random random(4903);
         for (int i = 0; i < 200; ++i) {
             const Pose wrist = buried_wrist(random, rig);
-            SeenHand hand(wall, wrist, eye_above(random), false);
-            hand.frame(k_frame_s);
-            EXPECT_GT(lowest_m(hand, Part::surfaces), -k_same_m) << i;
+            SeenHand hand(wall, wrist, eye_above(random));
+            hand.outside_bs();
+            EXPECT_GT(lowest_m(hand), -k_same_m) << i;
         }
     }
 }
@@ -115,10 +116,10 @@ TEST(OutsideSurfaces, HandThatBeginsToGripInAWallNeverDisappearsInIt) {
     int without = 0;
     for (int i = 0; i < 100; ++i) {
         const Pose wrist = buried_wrist(random, rig, 0.08);
-        SeenHand hand(block, wrist, eye_above(random), true);
+        SeenHand hand(block, wrist, eye_above(random));
         for (int frame = 0; frame < 30; ++frame) {
             hand.frame(k_frame_s);
-            EXPECT_GT(lowest_m(hand, Part::axes), -1e-3) << i << ", frame " << frame;
+            EXPECT_GT(lowest_m(hand), -1e-3) << i << ", frame " << frame;
         }
         const bool has_surface = hand.surface.at(k_right).triangle != GripSurface::k_none;
         (has_surface ? with_surface : without) += 1;
@@ -151,10 +152,15 @@ TEST(OutsideSurfaces, HandInACornerIsShownOutsideOfBothWalls) {
         const double y = -random.between(0.02, 0.05);
         const Quat rotation = random.rotation();
         SeenHand hand(corner, {Vec3(x, y, 0.0) - rotation * rig.palm_center_hs, rotation},
-                      Vec3(0.5, 0.5, 0.0), false);
-        hand.frame(k_frame_s);
-        const Vec3 palm = hand.palm_center_bs();
-        EXPECT_TRUE(palm.x() > -1e-3 && palm.y() > -1e-3) << i << ": " << palm.transpose();
+                      Vec3(0.5, 0.5, 0.0));
+        const Pose outside = hand.outside_bs();
+        for (const PalmCapsule& capsule : rig.palm) {
+            for (const Vec3& end_hs : {capsule.a_hs, capsule.b_hs}) {
+                const Vec3 end = transform_point(outside, end_hs);
+                EXPECT_TRUE(end.x() > -k_same_m && end.y() > -k_same_m)
+                    << i << ": " << end.transpose();
+            }
+        }
     }
 }
 
@@ -164,15 +170,12 @@ TEST(OutsideSurfaces, HandThatIsSeenOrWhoseEyeIsUnknownStays) {
     Random random(4907);
     for (int i = 0; i < 200; ++i) {
         Pose wrist = buried_wrist(random, rig);
-        SeenHand unknown(block, wrist, {}, false);
+        SeenHand unknown(block, wrist, {});
         unknown.hands.front().eye_bs.reset();
-        unknown.frame(k_frame_s);
-        EXPECT_EQ(unknown.shown_bs().position, wrist.position);
-        const double lowest = lowest_m(unknown, Part::surfaces);
-        wrist.position.y() += random.between(1e-4, 0.05) - lowest;
-        SeenHand seen(block, wrist, eye_above(random), false);
-        seen.frame(k_frame_s);
-        EXPECT_EQ(seen.shown_bs().position, wrist.position) << i;
+        EXPECT_EQ(unknown.outside_bs().position, wrist.position);
+        wrist.position.y() += random.between(1e-4, 0.05) - lowest_m(unknown);
+        SeenHand seen(block, wrist, eye_above(random));
+        EXPECT_EQ(seen.outside_bs().position, wrist.position) << i;
     }
 }
 
@@ -184,9 +187,8 @@ TEST(OutsideSurfaces, HandBehindABoardStays) {
     for (int i = 0; i < 100; ++i) {
         Pose wrist = buried_wrist(random, rig);
         wrist.position.y() -= 0.35;
-        SeenHand hand(board, wrist, eye_above(random), false);
-        hand.frame(k_frame_s);
-        EXPECT_EQ(hand.shown_bs().position, wrist.position) << i;
+        SeenHand hand(board, wrist, eye_above(random));
+        EXPECT_EQ(hand.outside_bs().position, wrist.position) << i;
     }
 }
 
@@ -200,7 +202,7 @@ TEST(OutsideSurfaces, HandWithItsBackToAnOpenWallStaysBeforeIt) {
         for (int i = 0; i < 200; ++i) {
             const Vec3 up = -(Vec3::UnitY() + random.vector(0.5)).normalized();
             const Vec3 palm(random.between(-0.2, 0.2), 0.025, 0.0);
-            SeenHand hand(sheet, wrist_with_palm_at(rig, palm, up), eye_above(random), true);
+            SeenHand hand(sheet, wrist_with_palm_at(rig, palm, up), eye_above(random));
             for (int frame = 0; frame < 3; ++frame) {
                 hand.frame(k_unlimited_s);
             }
