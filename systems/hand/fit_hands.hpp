@@ -66,7 +66,8 @@ struct FitHandsIo {
 // FingerTuning::close_radps (closing) and open_radps (opening, and opposition), all angles of a
 // digit by the same share of their remaining change. A gripping hand that has no fit, or
 // has not reached it, is drawn on the player's side of the surfaces around it
-// (shared/outside_surfaces.hpp), except in an authored grip. Empty hands are drawn as tracked. Only the shown hand moves, never the player.
+// (shared/outside_surfaces.hpp), except in an authored grip. Empty hands are drawn as tracked. Only
+// the shown hand moves, never the player.
 //
 // Fallbacks counted: hand_penetrates, once per closing after which the fit still penetrates by
 // millimetres.
