@@ -264,13 +264,23 @@ bool follow_digit(double dt_s, const FingerTuning& tuning, const FingerAngles& t
     return share == 1.0;
 }
 
-Pose shown_wrist_ws(const HandSurroundings& hand, bool is_fitted, const PalmOffset& offset,
+// A hand on its way to a fit that is out of sight would come and go as the fit changes.
+bool may_be_moved_out(const HandSurroundings& hand, const Pose& target_hs, bool is_there,
+                      const FingerPose& pose) {
+    if (hand.authored != nullptr) {
+        return false;
+    }
+    return is_null(pose.fitted_body) ||
+           (!is_there && !is_palm_behind(hand, hand.wrist_bs * target_hs));
+}
+
+Pose shown_wrist_ws(const HandSurroundings& hand, bool may_be_moved, const PalmOffset& offset,
                     const FingerPose& pose) {
     const bool is_tracked = offset.shown_m.isZero() && offset.shown_turn_rad.isZero();
     Pose wrist_bs = is_tracked ? hand.wrist_bs
                                : hand.wrist_bs * Pose{offset.shown_m,
                                                       rotation_from_vector(offset.shown_turn_rad)};
-    if (!is_fitted) {
+    if (may_be_moved) {
         wrist_bs = wrist_outside_bs(hand, {wrist_bs, pose.shown});
     }
     return hand.body_ws * Pose{hand.scale * wrist_bs.position, wrist_bs.rotation};
@@ -295,14 +305,14 @@ void fit_hands(const FitHandsIo& io, const Tuning& tuning, StageStats& stats,
             fit_one(hand, surface, tuning, stats, offset, pose, rows);
         }
         follow_trigger(hand, io.hand.at(hand.hand).trigger, pose);
-        const bool is_authored = hand.authored != nullptr;
-        bool is_there = follow_palm(target_in_hand(hand, pose, offset), io.dt_s, is_authored,
-                                    tuning.palm, offset);
+        const Pose target_hs = target_in_hand(hand, pose, offset);
+        bool is_there =
+            follow_palm(target_hs, io.dt_s, hand.authored != nullptr, tuning.palm, offset);
         for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
             is_there &= follow_digit(io.dt_s, tuning.finger, pose.target[f], pose.shown[f]);
         }
-        const bool is_fitted = is_authored || (is_there && !is_null(pose.fitted_body));
-        io.palm.at(hand.hand).pose_ws = shown_wrist_ws(hand, is_fitted, offset, pose);
+        const bool may_be_moved = may_be_moved_out(hand, target_hs, is_there, pose);
+        io.palm.at(hand.hand).pose_ws = shown_wrist_ws(hand, may_be_moved, offset, pose);
     }
 }
 

@@ -65,7 +65,7 @@ struct FitHandsIo {
 // The shown hand follows at PalmTuning::rate_mps (faster if its palm is far off: k_palm_settle_s),
 // FingerTuning::close_radps (closing) and open_radps (opening, and opposition), all angles of a
 // digit by the same share of their remaining change. A gripping hand that has no fit, or
-// has not reached it, is drawn on the player's side of the surfaces around it
+// has not reached one that the player sees, is drawn on the player's side of the surfaces around it
 // (shared/outside_surfaces.hpp), except in an authored grip. Empty hands are drawn as tracked. Only
 // the shown hand moves, never the player.
 //

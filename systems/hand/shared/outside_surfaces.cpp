@@ -26,6 +26,8 @@ class PalmNear {
                      crosses_oddly(surface(), inverse_transform_point(placed.pose, eye_bs), palm_);
     }
 
+    bool is_behind() const { return is_behind_; }
+
     // The way out for a point of the hand, if it is deeper than `deepest`.
     void exit_of(const Vec3& point_bs, Exit& deepest) const {
         constexpr double k_slack_m = 1e-9;
@@ -88,6 +90,13 @@ Pose wrist_outside_bs(const HandSurroundings& hand, const HandPose& pose) {
         moved.wrist_bs.position += exit.depth_m * exit.direction_bs;
     }
     return moved.wrist_bs;
+}
+
+bool is_palm_behind(const HandSurroundings& hand, const Pose& wrist_bs) {
+    const Vec3 palm_bs = transform_point(wrist_bs, hand.rig->palm_center_hs);
+    return hand.eye_bs && std::ranges::any_of(hand.meshes, [&](const PlacedMesh& placed) {
+               return PalmNear(placed, *hand.eye_bs, palm_bs).is_behind();
+           });
 }
 
 }  // namespace handhold

@@ -15,4 +15,7 @@ inline constexpr int k_most_faces = 4;  // three faces that meet in a corner, an
 // that are deeper than k_deepest_m, and all hands if the eye is unknown, stay.
 Pose wrist_outside_bs(const HandSurroundings& hand, const HandPose& pose);
 
+// True if the palm's centre is behind a mesh and within k_deepest_m of its surface.
+bool is_palm_behind(const HandSurroundings& hand, const Pose& wrist_bs);
+
 }  // namespace handhold
