@@ -39,7 +39,7 @@ struct HandSurroundings {
     // Wrist of a gripping hand: its anchor, with the tracked rotation if the hand may turn on its
     // grip. For an empty hand: the tracked wrist, in world space.
     Pose wrist_bs;
-    // Centre of the player's head, from which the player sees the hand; null: unknown.
+    // Between the player's eyes. Null: the hand is empty, or the head was never tracked.
     std::optional<Vec3> eye_bs = std::nullopt;
     std::vector<PlacedMesh> meshes;  // mesh of the gripped body, then other meshes near the hand
     // Hash of the body, the meshes and their poses rounded to 0.1 mm. While the hash is unchanged,

@@ -264,14 +264,15 @@ bool follow_digit(double dt_s, const FingerTuning& tuning, const FingerAngles& t
     return share == 1.0;
 }
 
-// A hand on its way to a fit that is out of sight would come and go as the fit changes.
+// A hand on its way to a fit with parts out of sight, as round the rim of a sheet, is not moved: it
+// would come and go as the fit changes.
 bool may_be_moved_out(const HandSurroundings& hand, const Pose& target_hs, bool is_there,
                       const FingerPose& pose) {
     if (hand.authored != nullptr) {
         return false;
     }
     return is_null(pose.fitted_body) ||
-           (!is_there && !is_palm_behind(hand, hand.wrist_bs * target_hs));
+           (!is_there && is_outside(hand, {hand.wrist_bs * target_hs, pose.target}));
 }
 
 Pose shown_wrist_ws(const HandSurroundings& hand, bool may_be_moved, const PalmOffset& offset,

@@ -74,8 +74,7 @@ class Gatherer {
         out.search_signature = 0;
         out.authored = nullptr;
         out.is_gripping = grab.kind != GripKind::none;
-        const Pose head_ws = origin_ws * io_.head.at(owner.player).pose_ps;
-        out.eye_bs = head_ws.position / scale;
+        out.eye_bs.reset();
         const bool body_exists =
             io_.body_pose.contains(grab.body) || io_.origin.contains(grab.body);
         if (grab.kind == GripKind::none || !body_exists) {
@@ -86,7 +85,11 @@ class Gatherer {
         out.body_ws = gripped_pose_ws(io_.body_pose, io_.origin, io_.head, grab.body, hold_on_part);
         out.wrist_bs = grab.anchor_bs;
         out.wrist_bs.position /= scale;
-        out.eye_bs = inverse_transform_point(out.body_ws, head_ws.position) / scale;
+        if (const HeadTracking& head = io_.head.at(owner.player);
+            head.state != TrackingState::never) {
+            const Vec3 eye_ws = (origin_ws * head.pose_ps).position;
+            out.eye_bs = inverse_transform_point(out.body_ws, eye_ws) / scale;
+        }
         if (may_turn_on_grip(grab)) {
             out.wrist_bs.rotation =
                 (out.body_ws.rotation.conjugate() * tracked_ws.rotation).normalized();
@@ -132,7 +135,9 @@ class Gatherer {
         const Pose frame = PartMeshes::frame_of_mesh(capsule);
         out.body_ws = out.body_ws * Pose{out.scale * frame.position, frame.rotation};
         out.wrist_bs = inverse(frame) * out.wrist_bs;
-        out.eye_bs = inverse_transform_point(frame, *out.eye_bs);
+        if (out.eye_bs) {
+            out.eye_bs = inverse_transform_point(frame, *out.eye_bs);
+        }
         return io_.meshes.of_parts.find(capsule);
     }
 

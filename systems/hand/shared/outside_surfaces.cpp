@@ -9,6 +9,8 @@
 namespace handhold {
 namespace {
 
+constexpr int k_most_faces = 4;  // three faces that meet in a corner, and one more
+
 struct Exit {
     Vec3 direction_bs = Vec3::Zero();  // unit, out of the surface
     double depth_m = 0.0;              // > 0 if there is one
@@ -19,14 +21,11 @@ class PalmNear {
   public:
     PalmNear(const PlacedMesh& placed, const Vec3& eye_bs, const Vec3& palm_bs)
         : placed_(placed), palm_(inverse_transform_point(placed.pose, palm_bs)) {
-        const auto near = surface().closest_point(palm_, k_deepest_m);
+        const auto near = surface().closest_point(palm_, k_sight_m);
         is_near_ = near.has_value();
-        distance_m_ = near ? near->distance_m : k_deepest_m;
-        is_behind_ = is_near_ &&
-                     crosses_oddly(surface(), inverse_transform_point(placed.pose, eye_bs), palm_);
+        distance_m_ = near ? near->distance_m : k_sight_m;
+        is_behind_ = is_near_ && handhold::is_behind(placed, eye_bs, palm_bs);
     }
-
-    bool is_behind() const { return is_behind_; }
 
     // The way out for a point of the hand, if it is deeper than `deepest`.
     void exit_of(const Vec3& point_bs, Exit& deepest) const {
@@ -80,6 +79,18 @@ Exit exit_of_hand(const HandSurroundings& hand, const HandPose& pose) {
 
 }  // namespace
 
+bool is_behind(const PlacedMesh& placed, const Vec3& eye_bs, const Vec3& point_bs) {
+    const Vec3 to_eye = eye_bs - point_bs;
+    const double share = k_sight_m / std::max(k_sight_m, to_eye.norm());
+    return crosses_oddly(placed.mesh->contact_bvh,
+                         inverse_transform_point(placed.pose, point_bs + share * to_eye),
+                         inverse_transform_point(placed.pose, point_bs));
+}
+
+bool is_outside(const HandSurroundings& hand, const HandPose& pose) {
+    return !hand.eye_bs || exit_of_hand(hand, pose).depth_m <= 0.0;
+}
+
 Pose wrist_outside_bs(const HandSurroundings& hand, const HandPose& pose) {
     HandPose moved = pose;
     for (int i = 0; hand.eye_bs && i < k_most_faces; ++i) {
@@ -88,15 +99,11 @@ Pose wrist_outside_bs(const HandSurroundings& hand, const HandPose& pose) {
             break;
         }
         moved.wrist_bs.position += exit.depth_m * exit.direction_bs;
+        if ((moved.wrist_bs.position - pose.wrist_bs.position).norm() > k_sight_m) {
+            return pose.wrist_bs;
+        }
     }
     return moved.wrist_bs;
-}
-
-bool is_palm_behind(const HandSurroundings& hand, const Pose& wrist_bs) {
-    const Vec3 palm_bs = transform_point(wrist_bs, hand.rig->palm_center_hs);
-    return hand.eye_bs && std::ranges::any_of(hand.meshes, [&](const PlacedMesh& placed) {
-               return PalmNear(placed, *hand.eye_bs, palm_bs).is_behind();
-           });
 }
 
 }  // namespace handhold

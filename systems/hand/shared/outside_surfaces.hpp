@@ -5,17 +5,19 @@
 
 namespace handhold {
 
-inline constexpr double k_deepest_m = 0.3;
-inline constexpr int k_most_faces = 4;  // three faces that meet in a corner, and one more
+// True if a mesh near a point hides it from the eye: the last k_sight_m of the line from the eye to
+// the point cross the mesh an odd number of times. Windings do not matter, and walls need neither
+// be closed nor have a thickness. What is farther from the point does not count. All in the frame
+// of HandSurroundings::wrist_bs.
+inline constexpr double k_sight_m = 0.3;
+bool is_behind(const PlacedMesh& placed, const Vec3& eye_bs, const Vec3& point_bs);
 
-// Returns the wrist of `pose`, moved so that the player sees the hand: the ends of its capsules'
-// axes leave the surfaces that they are behind, the deepest first, at most k_most_faces times. A
-// point is behind a mesh if the line from HandSurroundings::eye_bs crosses it an odd number of
-// times, so windings do not matter, and walls need neither be closed nor have a thickness. Hands
-// that are deeper than k_deepest_m, and all hands if the eye is unknown, stay.
+// True if no end of the capsules' axes is behind a mesh, or if the eye is unknown.
+bool is_outside(const HandSurroundings& hand, const HandPose& pose);
+
+// Returns the wrist of `pose`, moved until is_outside: the deepest end first, to its nearest
+// surface point. Thin boards may be left at their far side. The wrist stays where it is if the palm
+// is more than k_sight_m from all surfaces, or the way out is longer than that.
 Pose wrist_outside_bs(const HandSurroundings& hand, const HandPose& pose);
-
-// True if the palm's centre is behind a mesh and within k_deepest_m of its surface.
-bool is_palm_behind(const HandSurroundings& hand, const Pose& wrist_bs);
 
 }  // namespace handhold

@@ -6,6 +6,7 @@
 
 #include "components/authored_grip.hpp"
 #include "engine/geometry/surface_crossings.hpp"
+#include "systems/hand/shared/outside_surfaces.hpp"
 #include "systems/rigs/authored_hand.hpp"
 #include "systems/rigs/hand_kinematics.hpp"
 
@@ -119,13 +120,9 @@ bool PalmFitter::enters_solid(const FittedPalm& held) const {
 }
 
 bool PalmFitter::disappears(const FittedPalm& held) const {
-    if (!hand_.eye_bs) {
-        return false;
-    }
-    const TriangleBvh& surface = placed_.mesh->contact_bvh;
-    const Vec3 eye = inverse_transform_point(placed_.pose, *hand_.eye_bs);
     const Vec3 to = palm_in(placed_.pose, *hand_.rig, held.surface.fitted_wrist_bs).center;
-    return crosses_oddly(surface, eye, to) && !crosses_oddly(surface, eye, palm_.center);
+    return hand_.eye_bs && crosses_oddly(placed_.mesh->contact_bvh, palm_.center, to) &&
+           !is_behind(placed_, *hand_.eye_bs, transform_point(placed_.pose, palm_.center));
 }
 
 double PalmFitter::crossing_depth_m(const FittedPalm& held) const {

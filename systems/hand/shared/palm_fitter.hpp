@@ -54,9 +54,9 @@ class PalmFitter {
     // True if the straight path from palm() to the fitted palm enters the first mesh more often
     // than it leaves it, or crosses it more than 32 times.
     bool enters_solid(const FittedPalm& held) const;
-    // True if the player, who sees palm() before the first mesh's surfaces, would see the fitted
-    // palm behind one: the line from the eye crosses them an odd number of times, whatever their
-    // windings. False if the eye is unknown.
+    // True if palm() is not behind the first mesh (is_behind), and the straight path to the fitted
+    // palm crosses the mesh an odd number of times, whatever its winding. False if the eye is
+    // unknown.
     bool disappears(const FittedPalm& held) const;
     // Returns how deep the palm penetrates surfaces that cross the axis of one of its capsules; 0
     // if none does. For one crossing this is the capsule's radius plus the distance from the

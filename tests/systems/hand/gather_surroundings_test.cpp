@@ -112,6 +112,9 @@ TEST(GatherSurroundings, EyeIsInTheBodysFrameAndInTheHandsMetres) {
     for (const double scale : {1.0, 0.5}) {
         scene.origin.at(k_player).scale = scale;
         scene.head.at(k_player).pose_ps.position = transform_point(body_ws, eye_bs);
+        scene.head.at(k_player).state = TrackingState::never;
+        EXPECT_FALSE(scene.gather(&meshes).eye_bs);
+        scene.head.at(k_player).state = TrackingState::tracked;
         const HandSurroundings& hand = scene.gather(&meshes);
         ASSERT_TRUE(hand.eye_bs);
         EXPECT_LT((*hand.eye_bs - eye_bs / scale).norm(), 1e-12);

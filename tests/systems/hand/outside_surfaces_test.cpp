@@ -28,6 +28,17 @@ Mesh make_block_mesh(double thick_m = 0.5) {
     return mesh;
 }
 
+// Two metres wide, in the plane y = `height_m`.
+Mesh make_sheet_mesh(double height_m) {
+    Mesh mesh;
+    for (int corner = 0; corner < 4; ++corner) {
+        mesh.positions.emplace_back((corner & 1) != 0 ? 1.0 : -1.0, height_m,
+                                    (corner & 2) != 0 ? 1.0 : -1.0);
+    }
+    mesh.triangles = {{0, 2, 1}, {1, 2, 3}};
+    return mesh;
+}
+
 Mesh turned_inside_out(Mesh mesh) {
     for (auto& triangle : mesh.triangles) {
         std::swap(triangle[1], triangle[2]);
@@ -50,26 +61,30 @@ Vec3 eye_above(Random& random) {
     return {x, y, random.between(-0.3, 0.3)};
 }
 
-// Height of the lowest axis of the shown hand's capsules.
-double lowest_m(FittedHand& hand) {
-    const Pose wrist = hand.shown_bs();
-    double lowest = 1.0;
+// Heights of the lowest and highest axes of a hand's capsules.
+std::array<double, 2> heights_m(const HandRig& rig, const FingerPose& pose, const Pose& wrist) {
+    std::array<double, 2> ends = {1.0, -1.0};
     const auto add = [&](const Vec3& at_hs) {
-        lowest = std::min(lowest, transform_point(wrist, at_hs).y());
+        const double height_m = transform_point(wrist, at_hs).y();
+        ends = {std::min(ends[0], height_m), std::max(ends[1], height_m)};
     };
-    for (const PalmCapsule& capsule : hand.rig.palm) {
+    for (const PalmCapsule& capsule : rig.palm) {
         add(capsule.a_hs);
         add(capsule.b_hs);
     }
-    for (std::size_t f = 0; f < hand.rig.fingers.size(); ++f) {
-        const FingerRig& finger = hand.rig.fingers[f];
-        const auto points = finger_points(finger, hand.pose().shown[f]);
-        for (std::size_t i = 0; i < finger.link_count; ++i) {
+    for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+        const auto points = finger_points(rig.fingers[f], pose.shown[f]);
+        for (std::size_t i = 0; i < rig.fingers[f].link_count; ++i) {
             add(points[i + 1]);
         }
     }
-    return lowest;
+    return ends;
 }
+double lowest_m(FittedHand& hand, const Pose& wrist) {
+    return heights_m(hand.rig, hand.pose(), wrist)[0];
+}
+double lowest_m(FittedHand& hand) { return lowest_m(hand, hand.shown_bs()); }
+double highest_m(FittedHand& hand) { return heights_m(hand.rig, hand.pose(), hand.wrist_bs())[1]; }
 
 // A hand that grips a mesh, seen from `eye_bs`.
 struct SeenHand : FittedHand {
@@ -106,7 +121,7 @@ TEST(OutsideSurfaces, HandInAWallIsShownBeforeIt) {
     }
 }
 
-// Every frame, from before the grip on. A hand at its fit is not moved, and may touch more deeply
+// Every frame of a grip. A hand at its fit is not moved, and may touch more deeply
 // by the fit's own tolerances.
 TEST(OutsideSurfaces, HandThatBeginsToGripInAWallNeverDisappearsInIt) {
     const GripMesh block = build_grip_mesh(make_block_mesh());
@@ -179,21 +194,81 @@ TEST(OutsideSurfaces, HandThatIsSeenOrWhoseEyeIsUnknownStays) {
     }
 }
 
-// A hand behind a board is not in it: the line from the eye enters and leaves.
+// A hand behind a board is not in it: the line from the eye enters and leaves. Behind a sheet it
+// is.
 TEST(OutsideSurfaces, HandBehindABoardStays) {
     const GripMesh board = build_grip_mesh(make_block_mesh(0.02));
+    const GripMesh sheet = build_grip_mesh(make_sheet_mesh(0.0));
     const HandRig rig = builtin_hand_rig(HandSide::right);
     Random random(4908);
+    int before_the_sheet = 0;
     for (int i = 0; i < 100; ++i) {
         Pose wrist = buried_wrist(random, rig);
-        wrist.position.y() -= 0.35;
-        SeenHand hand(board, wrist, eye_above(random));
-        EXPECT_EQ(hand.outside_bs().position, wrist.position) << i;
+        wrist.position.y() -= 0.1;
+        const Vec3 eye = wrist.position + Vec3(0.05, 0.6, 0.05);
+        SeenHand behind_sheet(sheet, wrist, eye);
+        if (highest_m(behind_sheet) > -0.03) {
+            continue;  // partly in the board
+        }
+        before_the_sheet += behind_sheet.outside_bs().position != wrist.position ? 1 : 0;
+        SeenHand behind_board(board, wrist, eye);
+        EXPECT_EQ(behind_board.outside_bs().position, wrist.position) << i;
+    }
+    EXPECT_GT(before_the_sheet, 20);
+}
+
+// What is between, but far from the hand, says nothing of the wall beside the hand.
+TEST(OutsideSurfaces, SheetFarFromTheHandDoesNotMoveIt) {
+    Mesh mesh = make_block_mesh();
+    const Mesh sheet = make_sheet_mesh(0.6);
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(), sheet.positions.begin(), sheet.positions.end());
+    for (const auto& [a, b, c] : sheet.triangles) {
+        mesh.triangles.push_back({first + a, first + b, first + c});
+    }
+    const GripMesh level = build_grip_mesh(mesh);
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+    Random random(4910);
+    for (int i = 0; i < 200; ++i) {
+        Pose wrist = buried_wrist(random, rig);
+        const Vec3 eye = eye_above(random) + 0.6 * Vec3::UnitY();
+        SeenHand buried(level, wrist, eye);
+        buried.outside_bs();
+        wrist.position.y() += random.between(1e-4, 0.05) - lowest_m(buried, wrist);
+        SeenHand seen(level, wrist, eye);
+        EXPECT_EQ(seen.outside_bs().position, wrist.position) << i;
     }
 }
 
-// A hand before an open wall with its back to it once passed the wall to hold it from behind. A
-// wall that is wound the other way gets no less.
+// Fingers go round the rim of a sheet, where the player does not see them: the hand is not lifted
+// off while they close. Without the rule, hands here are moved by up to centimetres.
+TEST(OutsideSurfaces, HandThatReachesRoundARimFollowsItsFit) {
+    const GripMesh sheet = build_grip_mesh(make_sheet_mesh(0.0));
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+    Random random(4911);
+    int reaching = 0;
+    for (int i = 0; i < 100; ++i) {
+        const Vec3 up = (Vec3::UnitY() + random.vector(0.4)).normalized();
+        const double past_rim_m = random.between(0.0, 0.03);
+        const Vec3 palm(random.between(-0.2, 0.2), 0.02, -1.0 + past_rim_m);
+        SeenHand hand(sheet, wrist_with_palm_at(rig, palm, up), Vec3(0.0, 0.6, -0.8));
+        for (int frame = 0; frame < 20; ++frame) {
+            hand.frame(k_frame_s);
+            const PalmOffset& offset = hand.offset.at(k_right);
+            const Pose target{offset.target_m, rotation_from_vector(offset.target_turn_rad)};
+            if (is_null(hand.pose().fitted_body) ||
+                is_outside(hand.hands.front(), {hand.wrist_bs() * target, hand.pose().target})) {
+                continue;
+            }
+            ++reaching;
+            const Vec3 followed = transform_point(hand.wrist_bs(), offset.shown_m);
+            EXPECT_LT((hand.shown_bs().position - followed).norm(), 1e-12) << i << ", " << frame;
+        }
+    }
+    EXPECT_GT(reaching, 100);
+}
+
+// A hand before an open wall with its back to it once passed the wall to hold it from behind.
 TEST(OutsideSurfaces, HandWithItsBackToAnOpenWallStaysBeforeIt) {
     const HandRig rig = builtin_hand_rig(HandSide::right);
     for (const Mesh& mesh : {test::make_floor_mesh(), turned_inside_out(test::make_floor_mesh())}) {
