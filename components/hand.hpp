@@ -13,7 +13,7 @@
 // Where to look:
 //   a grab begins         systems/grab/update_grabs.hpp
 //   palm surface          systems/hand/search_grip.hpp      -> GripSurface
-//   the palm's limits     systems/hand/constrain_palms.hpp  -> PalmOffset, PalmPose
+//   the palm's limits     systems/hand/constrain_palms.hpp  -> PalmOffset
 //   where a finger stops  systems/hand/sweep_fingers.hpp    -> FingerPose::closed
 //   the fit               systems/hand/fit_hands.hpp        -> PalmOffset, PalmPose, FingerPose
 //
@@ -39,7 +39,7 @@ struct GripSurface {
     Pose fitted_wrist_bs;
 };
 
-// The shown palm relative to the tracked hand: shown wrist = tracked wrist * offset. An offset is a
+// The palm relative to the tracked hand: wrist = tracked wrist * offset. An offset is a
 // translation and a rotation vector in hand space (_hs), so that it moves with the hand.
 struct PalmOffset {
     // Written by constrain_palms: the palm within its limits, or in its authored grip.

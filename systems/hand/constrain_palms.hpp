@@ -30,7 +30,7 @@ struct ConstrainPalmsIo {
 // Idempotent: a hand that is tracked at its own held pose is held there, with an error below 0.1
 // mm.
 //
-// Fallbacks counted: none. search_grip counts hands without a surface, which are shown as tracked.
+// Fallbacks counted: none. search_grip counts hands without a surface.
 void constrain_palms(const ConstrainPalmsIo& io);
 
 }  // namespace handhold

@@ -34,8 +34,8 @@ struct SearchGripIo {
 //    their closed-form costs, while these are below the best full cost. At most
 //    SurfaceCandidates::k_max_count are evaluated.
 //
-// A palm that could only lie inside a solid, or would pass a surface out of the player's sight, or
-// that has no surface, keeps its tracked pose.
+// A palm is held where it is tracked if it has no surface, could only lie inside a solid, or would
+// have to cross the gripped mesh out of the player's sight, as seen at the time of the search.
 //
 // A hand searches when its grip begins, when its surroundings have moved by about k_search_step_m,
 // and after k_search_again_m of travel (hand_travel_m). In other frames it keeps what it found,
