@@ -217,7 +217,7 @@ TEST(OutsideSurfaces, HandBehindABoardStays) {
     EXPECT_GT(before_the_sheet, 20);
 }
 
-// What is between, but far from the hand, says nothing of the wall beside the hand.
+// The line from the eye crosses the sheet, far from the wall beside the hand.
 TEST(OutsideSurfaces, SheetFarFromTheHandDoesNotMoveIt) {
     Mesh mesh = make_block_mesh();
     const Mesh sheet = make_sheet_mesh(0.6);
