@@ -62,10 +62,9 @@ FingerAngles empty_angles(const FingerRig& finger, const HandTracking& hand,
     return angles;
 }
 
+// A fist in a surface goes to the player's side of it.
 void pose_unsupported_hand(const HandSurroundings& hand, const HandTracking& tracking,
                            const ThumbTuning& tuning, PalmOffset& offset, FingerPose& pose) {
-    offset.target_m = offset.held_m;
-    offset.target_turn_rad = offset.held_turn_rad;
     for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
         const FingerRig& finger = hand.rig->fingers[f];
         if (pose.is_authored[f]) {
@@ -74,6 +73,13 @@ void pose_unsupported_hand(const HandSurroundings& hand, const HandTracking& tra
             pose.target[f] =
                 hand.is_gripping ? fist(finger, tuning) : empty_angles(finger, tracking, tuning);
         }
+    }
+    offset.target_m = offset.held_m;
+    offset.target_turn_rad = offset.held_turn_rad;
+    if (hand.authored == nullptr) {
+        const Pose& tracked_bs = hand.wrist_bs;
+        const Vec3 outside_bs = wrist_outside_bs(hand, {tracked_bs, pose.target}).position;
+        offset.target_m = tracked_bs.rotation.conjugate() * (outside_bs - tracked_bs.position);
     }
     pose.fitted_body = k_no_entity;
     pose.is_converged = false;
@@ -264,15 +270,10 @@ bool follow_digit(double dt_s, const FingerTuning& tuning, const FingerAngles& t
     return share == 1.0;
 }
 
-// A hand on its way to a fit with parts out of sight, as round the rim of a sheet, is not moved: it
-// would come and go as the fit changes.
-bool may_be_moved_out(const HandSurroundings& hand, const Pose& target_hs, bool is_there,
-                      const FingerPose& pose) {
-    if (hand.authored != nullptr) {
-        return false;
-    }
-    return is_null(pose.fitted_body) ||
-           (!is_there && is_outside(hand, {hand.wrist_bs * target_hs, pose.target}));
+// A hand on its way to a pose with parts out of sight, as round the rim of a sheet, is not moved:
+// it would come and go as the fit changes.
+bool may_be_moved_out(const HandSurroundings& hand, const Pose& target_hs, const FingerPose& pose) {
+    return hand.authored == nullptr && is_outside(hand, {hand.wrist_bs * target_hs, pose.target});
 }
 
 Pose shown_wrist_ws(const HandSurroundings& hand, bool may_be_moved, const PalmOffset& offset,
@@ -312,7 +313,7 @@ void fit_hands(const FitHandsIo& io, const Tuning& tuning, StageStats& stats,
         for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
             is_there &= follow_digit(io.dt_s, tuning.finger, pose.target[f], pose.shown[f]);
         }
-        const bool may_be_moved = may_be_moved_out(hand, target_hs, is_there, pose);
+        const bool may_be_moved = !is_there && may_be_moved_out(hand, target_hs, pose);
         io.palm.at(hand.hand).pose_ws = shown_wrist_ws(hand, may_be_moved, offset, pose);
     }
 }

@@ -88,10 +88,12 @@ double highest_m(FittedHand& hand) { return heights_m(hand.rig, hand.pose(), han
 
 // A hand that grips a mesh, seen from `eye_bs`.
 struct SeenHand : FittedHand {
-    SeenHand(const GripMesh& mesh, const Pose& wrist_bs, const Vec3& eye_bs)
-        : FittedHand(mesh, wrist_bs) {
+    SeenHand(const GripMesh& mesh, const Pose& wrist_bs, const Vec3& eye_bs,
+             HandSide side = HandSide::right)
+        : FittedHand(mesh, wrist_bs, side) {
         hands.front().eye_bs = eye_bs;
     }
+    bool is_fist() const { return surface.at(k_right).triangle == GripSurface::k_none; }
     // Draws a relaxed hand.
     Pose outside_bs() {
         HandPose relaxed{wrist_bs(), {}};
@@ -136,11 +138,95 @@ TEST(OutsideSurfaces, HandThatBeginsToGripInAWallNeverDisappearsInIt) {
             hand.frame(k_frame_s);
             EXPECT_GT(lowest_m(hand), -1e-3) << i << ", frame " << frame;
         }
-        const bool has_surface = hand.surface.at(k_right).triangle != GripSurface::k_none;
-        (has_surface ? with_surface : without) += 1;
+        (hand.is_fist() ? without : with_surface) += 1;
     }
     EXPECT_GT(with_surface, 20);
     EXPECT_GT(without, 20);
+}
+
+// The player sees each frame: a fist that lets go goes back to where it is tracked by the palm's
+// own rate, and does not jump.
+TEST(OutsideSurfaces, FistInAWallThatLetsGoDoesNotJump) {
+    const GripMesh block = build_grip_mesh(make_block_mesh());
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+    constexpr double k_share = 1.0 / (1.0 + k_palm_settle_s / k_frame_s);
+    Random random(4912);
+    int moved = 0;
+    for (int i = 0; i < 100; ++i) {
+        const Pose wrist = buried_wrist(random, rig);
+        const Vec3 eye = eye_above(random);
+        SeenHand hand(block, wrist, eye);
+        for (int frame = 0; frame < 60; ++frame) {
+            hand.frame(k_frame_s);
+        }
+        const double lifted_m = (hand.shown_bs().position - wrist.position).norm();
+        if (!hand.is_fist() || lifted_m < 0.01) {
+            continue;
+        }
+        ++moved;
+        HandSurroundings& empty = hand.hands.front();
+        empty.eye_bs.reset();
+        empty.body = k_no_entity;
+        empty.meshes.clear();
+        empty.is_gripping = false;
+        Vec3 last = hand.shown_bs().position;
+        for (int frame = 0; frame < 60; ++frame) {
+            hand.frame(k_frame_s);
+            const Vec3 shown = hand.shown_bs().position;
+            EXPECT_LT(
+                (shown - last).norm(),
+                std::max(hand.tuning.palm.rate_mps * k_frame_s, k_share * lifted_m) + k_same_m)
+                << i << ", frame " << frame;
+            last = shown;
+        }
+        EXPECT_EQ(last, wrist.position) << i;
+    }
+    EXPECT_GT(moved, 20);
+}
+
+// Fists of both hands, of players of any scale, and in bodies and meshes at any place.
+TEST(OutsideSurfaces, FistIsShownAlikeOnEitherSideAtAnyScaleAndPlace) {
+    const Mesh block = make_block_mesh();
+    const GripMesh wall = build_grip_mesh(block);
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+    constexpr double k_near_m = 1e-9;
+    Random random(4913);
+    int moved = 0;
+    for (int i = 0; i < 100; ++i) {
+        const Pose wrist = buried_wrist(random, rig);
+        const Vec3 eye = eye_above(random);
+        SeenHand hand(wall, wrist, eye);
+        hand.frame(k_unlimited_s);
+        if (!hand.is_fist()) {
+            continue;
+        }
+        moved += (hand.shown_bs().position - wrist.position).norm() > 0.01 ? 1 : 0;
+
+        const Vec3 mirrored_eye = mirror_hand_pose({eye, Quat::Identity()}).position;
+        SeenHand left(wall, mirror_hand_pose(wrist), mirrored_eye, HandSide::left);
+        left.frame(k_unlimited_s);
+        EXPECT_TRUE(left.is_fist()) << i;
+        EXPECT_LT((mirror_hand_pose(left.shown_bs()).position - hand.shown_bs().position).norm(),
+                  k_near_m)
+            << i;
+
+        const Pose mesh_bs = random.pose();
+        Mesh shifted = block;
+        for (Vec3& position : shifted.positions) {
+            position = inverse_transform_point(mesh_bs, position);
+        }
+        const GripMesh shifted_wall = build_grip_mesh(shifted);
+        SeenHand elsewhere(shifted_wall, wrist, eye);
+        HandSurroundings& around = elsewhere.hands.front();
+        around.meshes.front().pose = mesh_bs;
+        around.body_ws = random.pose();
+        around.scale = random.between(0.5, 2.0);
+        elsewhere.frame(k_unlimited_s);
+        EXPECT_TRUE(elsewhere.is_fist()) << i;
+        const Vec3 scaled_bs = around.scale * hand.shown_bs().position;
+        EXPECT_LT((elsewhere.shown_bs().position - scaled_bs).norm(), k_near_m) << i;
+    }
+    EXPECT_GT(moved, 20);
 }
 
 // The quarter x > 0, y > 0 is free, between two walls that meet at the origin.
