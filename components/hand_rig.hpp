@@ -17,6 +17,12 @@ namespace handhold {
 
 inline constexpr std::size_t k_max_links = 3;
 
+// Joint angles of one finger.
+struct FingerAngles {
+    std::array<double, k_max_links> curl_rad = {};
+    double opposition_rad = 0.0;
+};
+
 // One finger: a chain of hinges in one plane, the finger's disc. Link i runs from hinge i to hinge
 // i + 1, the last link to the tip. A hinge's frame has -Z along its link and +X along the hinge; a
 // positive curl turns the link from -Z towards -Y, the palm's side.
@@ -31,6 +37,7 @@ struct FingerRig {
     // together.
     std::array<double, k_max_links> upper_rad = {};
     std::array<double, k_max_links> rest_rad = {};  // curl in the rest pose
+    FingerAngles fist;                              // of a closed hand that holds nothing
     // Unit axis through the first hinge. The opposition angle turns the digit's disc about it: a
     // thumb's opposition, a finger's spread. A range of 0 fixes the disc.
     Vec3 opposition_axis_hs = -Vec3::UnitZ();
@@ -70,12 +77,6 @@ struct HandRig {
 // component, or with an index beyond the list, has the rig of its side. Written by the host.
 struct HandRigChoice {
     std::uint32_t index = 0;
-};
-
-// Joint angles of one finger.
-struct FingerAngles {
-    std::array<double, k_max_links> curl_rad = {};
-    double opposition_rad = 0.0;
 };
 
 }  // namespace handhold

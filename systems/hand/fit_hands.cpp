@@ -9,7 +9,6 @@
 #include "systems/hand/shared/thumb_closing.hpp"
 #include "systems/rigs/authored_hand.hpp"
 #include "systems/rigs/hand_kinematics.hpp"
-#include "systems/rigs/hand_limits.hpp"
 
 namespace handhold {
 namespace {
@@ -35,15 +34,6 @@ double straight_rad(const FingerRig& finger, std::size_t link) {
     return std::clamp(0.0, finger.lower_rad[link], finger.upper_rad[link]);
 }
 
-// Angles of a digit of a gripping hand that has nothing to touch.
-FingerAngles fist(const FingerRig& finger, const ThumbTuning& tuning) {
-    FingerAngles angles = coupled_angles(finger, k_fist_curl);
-    if (finger.name == FingerName::thumb) {
-        angles.opposition_rad = rest_opposition_rad(finger, tuning);
-    }
-    return angles;
-}
-
 // Angles of an empty hand's digit: as its curl says where that is known, else between the rest pose
 // and a fist.
 FingerAngles empty_angles(const FingerRig& finger, const HandTracking& hand,
@@ -54,10 +44,11 @@ FingerAngles empty_angles(const FingerRig& finger, const HandTracking& hand,
     FingerAngles angles;
     for (std::size_t i = 0; i < finger.link_count; ++i) {
         const double open_rad = is_known ? straight_rad(finger, i) : finger.rest_rad[i];
-        angles.curl_rad[i] = open_rad + closed * (fist_rad(finger, i) - open_rad);
+        angles.curl_rad[i] = open_rad + closed * (finger.fist.curl_rad[i] - open_rad);
     }
     if (finger.name == FingerName::thumb) {
-        angles.opposition_rad = rest_opposition_rad(finger, tuning);
+        const double open_rad = rest_opposition_rad(finger, tuning);
+        angles.opposition_rad = open_rad + closed * (finger.fist.opposition_rad - open_rad);
     }
     return angles;
 }
@@ -71,7 +62,7 @@ void pose_unsupported_hand(const HandSurroundings& hand, const HandTracking& tra
             pose.target[f] = pose.closed[f];
         } else {
             pose.target[f] =
-                hand.is_gripping ? fist(finger, tuning) : empty_angles(finger, tracking, tuning);
+                hand.is_gripping ? finger.fist : empty_angles(finger, tracking, tuning);
         }
     }
     offset.target_m = offset.held_m;

@@ -4,7 +4,6 @@
 #include "beam.hpp"
 #include "systems/hand/fit_hands.hpp"
 #include "systems/rigs/hand_kinematics.hpp"
-#include "systems/rigs/hand_limits.hpp"
 
 namespace handhold::shown_hand_test {
 namespace {
@@ -203,9 +202,9 @@ TEST_F(ShownHand, EmptyHandTakesRestPoseOrFist) {
     for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
         EXPECT_EQ(rest.shown[f].curl_rad, rig.fingers[f].rest_rad);
         for (std::size_t i = 0; i < rig.fingers[f].link_count; ++i) {
-            EXPECT_GT(hand.pose().shown[f].curl_rad[i], rest.shown[f].curl_rad[i]);
-            EXPECT_LE(hand.pose().shown[f].curl_rad[i], rig.fingers[f].upper_rad[i]);
+            EXPECT_NEAR(hand.pose().shown[f].curl_rad[i], rig.fingers[f].fist.curl_rad[i], 1e-12);
         }
+        EXPECT_NEAR(hand.pose().shown[f].opposition_rad, rig.fingers[f].fist.opposition_rad, 1e-12);
     }
 }
 
@@ -227,8 +226,8 @@ TEST_F(ShownHand, GrippingHandWithItsBackOrEdgeToASurfaceIsAFist) {
         ASSERT_EQ(hand.surface.at(k_right).triangle, GripSurface::k_none);
         EXPECT_EQ(hand.palm.at(k_right).pose_ws.position, hand.wrist_bs().position);
         for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
-            EXPECT_EQ(hand.pose().shown[f].curl_rad,
-                      coupled_angles(rig.fingers[f], k_fist_curl).curl_rad);
+            EXPECT_EQ(hand.pose().shown[f].curl_rad, rig.fingers[f].fist.curl_rad);
+            EXPECT_EQ(hand.pose().shown[f].opposition_rad, rig.fingers[f].fist.opposition_rad);
         }
     }
 }
