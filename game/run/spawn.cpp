@@ -29,6 +29,8 @@ constexpr std::size_t k_played = 16;           // the best candidates are played
 constexpr std::size_t k_head_checks = 12;
 constexpr double k_head_clearance_m = 0.06;  // distance from surfaces beyond the head's radius
 constexpr double k_palm_gap_m = 0.02;        // gap between the first grab's palm and the surface
+constexpr double k_faces = 0.5;              // least cosine between a palm's ray and its surface
+constexpr double k_unfaced_score = 0.25;  // of a grab whose palm faces no surface but is near one
 
 // The ray along which a closing hand looks for a surface, its palm, and the head's centre then.
 struct GrabRay {
@@ -144,9 +146,22 @@ struct SpawnEvaluator {
                !world.cast_ray(head_ws, head_ws + (1.0 - k_in_m / length_m) * sight);
     }
 
-    // Rates a start origin: the number of grabs that would find a surface and are seen, minus 0.3
-    // for each later head position too near a surface; -1 if the first head position is too near a
-    // surface.
+    // How well a grab begins: 1 if the player sees the palm and it faces the surface on its ray.
+    double score(const hh::Pose& origin_ws, const GrabRay& ray) const {
+        const hh::Vec3 palm_ws = transform_point(origin_ws, ray.palm);
+        const hh::Vec3 from_ws = transform_point(origin_ws, ray.from);
+        const hh::Vec3 to_ws = transform_point(origin_ws, ray.to);
+        const auto hit = world.cast_ray(from_ws, to_ws);
+        if ((!hit && !world.closest_point(palm_ws, tuning.reach_m)) ||
+            !is_seen(transform_point(origin_ws, ray.head), palm_ws)) {
+            return 0.0;
+        }
+        const bool faces = hit && dot(normalized(from_ws - to_ws), hit->normal) >= k_faces;
+        return faces ? 1.0 : k_unfaced_score;
+    }
+
+    // Rates a start origin: the sum over the grabs, minus 0.3 for each later head position too near
+    // a surface; -1 if the first head position is too near a surface.
     double score(const hh::Pose& origin_ws) const {
         double score = 0.0;
         for (std::size_t i = 0; i < rehearsal.heads.size(); ++i) {
@@ -159,14 +174,7 @@ struct SpawnEvaluator {
             }
         }
         for (const GrabRay& ray : rehearsal.grabs) {
-            const hh::Vec3 palm_ws = transform_point(origin_ws, ray.palm);
-            const hh::Vec3 from_ws = transform_point(origin_ws, ray.from);
-            const hh::Vec3 to_ws = transform_point(origin_ws, ray.to);
-            const bool finds =
-                world.cast_ray(from_ws, to_ws) || world.closest_point(palm_ws, tuning.reach_m);
-            if (finds && is_seen(transform_point(origin_ws, ray.head), palm_ws)) {
-                score += 1.0;
-            }
+            score += this->score(origin_ws, ray);
         }
         return score;
     }
@@ -301,13 +309,16 @@ FoundSpawn find_spawn(Scene& scene, const Recording& recording, double hz) {
         throw std::logic_error(std::string(saved.text()));
     }
     double best_path_m = -1.0;
+    double best_score = 0.0;
     for (const Candidate& candidate : propose(scene, {scene.host, rehearsal, tuning})) {
         const Played played = play_from(scene, recording, candidate.origin_ws, hz);
         if (const hh::Status restored = scene.host.restore(before); !restored) {
             throw std::logic_error(std::string(restored.text()));
         }
-        if (best_path_m < 0.0 || played.gripped > found.gripped ||
-            (played.gripped == found.gripped && played.path_m > best_path_m)) {
+        const double score = candidate.score + static_cast<double>(played.gripped);
+        if (best_path_m < 0.0 || score > best_score ||
+            (score == best_score && played.path_m > best_path_m)) {
+            best_score = score;
             found.origin_ws = candidate.origin_ws;
             found.gripped = played.gripped;
             best_path_m = played.path_m;

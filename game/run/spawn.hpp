@@ -15,13 +15,14 @@ struct FoundSpawn {
     std::size_t gripped = 0;  // grabs that grip when the session is played from here
 };
 
-// Finds the start place and yaw from which most of the recording's grabs begin near a surface that
-// the player sees, with the head clear of surfaces. Each candidate puts one of the recording's
-// first grabs before a random point of the scene's surfaces, on the side to which the triangle is
-// wound, and the head on the same side. Candidates are rated along the path that the origin would
-// take if every grab gripped; the best candidates are played. Deterministic. The player stands
-// along the scene's up direction. Without such a place, returns the first spawn, or the world's
-// origin. Afterwards the scene's world is as it was.
+// Finds the start place and yaw from which most of the recording's grabs begin with the palm
+// towards a near surface that the player sees, with the head clear of surfaces: what the recorded
+// player held was before the palm. Each candidate puts one of the recording's first grabs before a
+// random point of the scene's surfaces, on the side to which the triangle is wound, and the head on
+// the same side. Candidates are rated along the path that the origin would take if every grab
+// gripped; the best candidates are played. Deterministic. The player stands along the scene's up
+// direction. Without such a place, returns the first spawn, or the world's origin. Afterwards the
+// scene's world is as it was.
 FoundSpawn find_spawn(Scene& scene, const Recording& recording, double hz);
 
 }  // namespace handhold
