@@ -14,13 +14,15 @@ struct CurlLimits {
     std::array<double, k_max_links> lower_deg, upper_deg, relaxed_deg, fist_deg;
 };
 constexpr CurlLimits k_finger = {
-    {-10.0, 0.0, 0.0}, {115.0, 105.0, 75.0}, {20.0, 30.0, 15.0}, {95.0, 105.0, 75.0}};
+    {-10.0, 0.0, 0.0}, {115.0, 105.0, 75.0}, {20.0, 30.0, 15.0}, {110.0, 105.0, 75.0}};
 constexpr CurlLimits k_two_bones = {
-    {-10.0, 0.0, 0.0}, {115.0, 110.0, 0.0}, {20.0, 35.0, 0.0}, {95.0, 105.0, 0.0}};
+    {-10.0, 0.0, 0.0}, {115.0, 110.0, 0.0}, {20.0, 35.0, 0.0}, {110.0, 105.0, 0.0}};
 // The thumb of a fist lies across the fingers, on the palm's side of them.
 constexpr CurlLimits k_thumb = {
-    {-10.0, -10.0, -10.0}, {28.0, 50.0, 65.0}, {10.0, 12.0, 10.0}, {-10.0, 45.0, 35.0}};
-constexpr double k_fist_opposition_deg = 55.0;
+    {-10.0, -10.0, -10.0}, {28.0, 50.0, 65.0}, {10.0, 12.0, 10.0}, {-10.0, 50.0, 65.0}};
+constexpr double k_fist_opposition_deg = 50.0;
+// Depth to which a thumb presses into the fingers of its fist.
+constexpr double k_touch_m = 6e-3;
 constexpr double k_opposition_lower_deg = -85.0;
 constexpr double k_opposition_upper_deg = 70.0;
 // Range of a finger's spread to either side. Hands spread by 20 to 30 degrees between neighbours.
@@ -28,16 +30,19 @@ constexpr double k_spread_deg = 10.0;
 // Sideways component of the opposition axis / forward component.
 constexpr double k_opposition_lean = 0.25;
 
-// Greatest depth of the thumb in a finger, both closed to a fist; 0 if they do not overlap.
-double fist_overlap_m(const FingerRig& thumb, const FingerRig& finger) {
+// Greatest depth of the thumb in the fingers, all closed to a fist; at least k_touch_m.
+double fist_overlap_m(const HandRig& rig, const FingerRig& thumb) {
+    double depth_m = k_touch_m;
     const auto on_thumb = finger_points(thumb, thumb.fist);
-    const auto on_finger = finger_points(finger, finger.fist);
-    double depth_m = 0.0;
-    for (std::size_t i = 0; i < thumb.link_count; ++i) {
-        for (std::size_t k = 0; k < finger.link_count; ++k) {
-            const auto [a, b] = closest_between_segments({on_thumb[i], on_thumb[i + 1]},
-                                                         {on_finger[k], on_finger[k + 1]});
-            depth_m = std::max(depth_m, thumb.radius_m[i] + finger.radius_m[k] - (a - b).norm());
+    for (const FingerRig& finger : rig.fingers) {
+        const auto on_finger = finger_points(finger, finger.fist);
+        for (std::size_t i = 0; finger.name != FingerName::thumb && i < thumb.link_count; ++i) {
+            for (std::size_t k = 0; k < finger.link_count; ++k) {
+                const auto [a, b] = closest_between_segments({on_thumb[i], on_thumb[i + 1]},
+                                                             {on_finger[k], on_finger[k + 1]});
+                depth_m =
+                    std::max(depth_m, thumb.radius_m[i] + finger.radius_m[k] - (a - b).norm());
+            }
         }
     }
     return depth_m;
@@ -71,21 +76,24 @@ void set_hand_limits(HandSide side, FingerRig& finger) {
 
 void clear_fist_thumb(HandRig& rig) {
     constexpr int k_steps = 16;
-    constexpr double k_touch_m = 2e-3;  // skin gives way
     for (FingerRig& thumb : rig.fingers) {
         if (thumb.name != FingerName::thumb) {
             continue;
         }
         const FingerAngles closed = thumb.fist;
-        const auto is_in = [&](const FingerRig& finger) {
-            return finger.name != FingerName::thumb && fist_overlap_m(thumb, finger) > k_touch_m;
-        };
-        for (int step = 1; step <= k_steps && std::ranges::any_of(rig.fingers, is_in); ++step) {
+        FingerAngles best = closed;
+        double least_m = fist_overlap_m(rig, thumb);
+        for (int step = 1; step <= k_steps && least_m > k_touch_m; ++step) {
             for (std::size_t link = 0; link < thumb.link_count; ++link) {
                 const double opens_rad = closed.curl_rad[link] - thumb.lower_rad[link];
                 thumb.fist.curl_rad[link] = closed.curl_rad[link] - opens_rad * step / k_steps;
             }
+            if (const double overlap_m = fist_overlap_m(rig, thumb); overlap_m < least_m) {
+                least_m = overlap_m;
+                best = thumb.fist;
+            }
         }
+        thumb.fist = best;
     }
 }
 

@@ -11,8 +11,8 @@ namespace handhold {
 // spread, positive towards the thumb's side, on either hand), and the fist.
 void set_hand_limits(HandSide side, FingerRig& finger);
 
-// Opens the thumb of the fist until it lies on the fingers: all hinges by the same share of their
-// range. Requires lengths, radii and limits.
+// Opens the thumb of the fist, all hinges by the same share of their range, until it is at most 6 mm
+// deep in a finger, or as far as that makes it less deep. Requires lengths, radii and limits.
 void clear_fist_thumb(HandRig& rig);
 
 // Direction of the thumb's first link at opposition 0, as an angle about the opposition axis: 0
