@@ -92,8 +92,8 @@ void add_run_options(CLI::App& run, handhold::RunOptions& options) {
                    "Stop after so many seconds; default: with the session")
         ->check(number_in(0.01, 1e6));
     first_and_more(run, "--spawn", options.spawn, options.more_spawns,
-                   "A spawn of the scene, or auto: where most of the session's grabs begin near a "
-                   "surface; once for each --input");
+                   "A spawn of the scene, or auto: where most of the session's grabs begin with "
+                   "the palm towards a near surface; once for each --input");
     run.add_option("--trace", options.trace,
                    "Write stage zones as a Chrome trace (Perfetto reads it)");
     CLI::Option* const out =

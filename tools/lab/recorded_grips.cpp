@@ -110,8 +110,7 @@ class GripWatch {
     std::array<std::optional<Current>, k_hand_count> current_;
 };
 
-// Plays a recording from the start place where most of its grabs begin near a surface, and returns
-// the grips of its player.
+// Plays a recording from the place that find_spawn chooses and returns the grips of its player.
 Result<std::vector<RecordedGrip>> watch(const std::string& scene_file, const std::string& input) {
     const Result<Recording> recording = load_recording(input);
     if (!recording) {
