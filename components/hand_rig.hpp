@@ -37,7 +37,7 @@ struct FingerRig {
     // together.
     std::array<double, k_max_links> upper_rad = {};
     std::array<double, k_max_links> rest_rad = {};  // curl in the rest pose
-    FingerAngles fist;                              // of a closed hand that holds nothing
+    FingerAngles fist;                              // pose in a fist, within the limits
     // Unit axis through the first hinge. The opposition angle turns the digit's disc about it: a
     // thumb's opposition, a finger's spread. A range of 0 fixes the disc.
     Vec3 opposition_axis_hs = -Vec3::UnitZ();

@@ -57,10 +57,7 @@ void add_hands(const std::string& shape, const Pose& eyes_ws, HandFigures& figur
         const Pose wrist = wrist_before_eyes(side, controllers.has_value());
         std::array<FingerAngles, k_finger_count> fingers;
         for (std::size_t i = 0; i < rig.fingers.size(); ++i) {
-            const bool is_thumb = rig.fingers[i].name == FingerName::thumb;
-            fingers[i] = shape == "fist" ? coupled_angles(rig.fingers[i], is_thumb ? 0.5 : 0.85)
-                                         : relaxed_angles(rig.fingers[i]);
-            fingers[i].opposition_rad = shape == "fist" && is_thumb ? 0.9 : 0.0;
+            fingers[i] = shape == "fist" ? rig.fingers[i].fist : relaxed_angles(rig.fingers[i]);
         }
         if (controllers) {
             const ControlValues controls = closing_values(shape == "fist");

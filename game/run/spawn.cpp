@@ -29,8 +29,9 @@ constexpr std::size_t k_played = 16;           // the best candidates are played
 constexpr std::size_t k_head_checks = 12;
 constexpr double k_head_clearance_m = 0.06;  // distance from surfaces beyond the head's radius
 constexpr double k_palm_gap_m = 0.02;        // gap between the first grab's palm and the surface
-constexpr double k_faces = 0.5;              // least cosine between a palm's ray and its surface
-constexpr double k_unfaced_score = 0.25;  // of a grab whose palm faces no surface but is near one
+constexpr double k_min_facing_cosine = 0.5;  // between a palm's ray and its surface's normal
+// Score of a grab near a surface that its palm does not face.
+constexpr double k_unfaced_score = 0.25;
 
 // The ray along which a closing hand looks for a surface, its palm, and the head's centre then.
 struct GrabRay {
@@ -146,8 +147,9 @@ struct SpawnEvaluator {
                !world.cast_ray(head_ws, head_ws + (1.0 - k_in_m / length_m) * sight);
     }
 
-    // How well a grab begins: 1 if the player sees the palm and it faces the surface on its ray.
-    double score(const hh::Pose& origin_ws, const GrabRay& ray) const {
+    // Rates a grab: 1 if the player sees the palm and it faces the surface on its ray,
+    // k_unfaced_score if the player sees it and a surface is near, else 0.
+    double grab_score(const hh::Pose& origin_ws, const GrabRay& ray) const {
         const hh::Vec3 palm_ws = transform_point(origin_ws, ray.palm);
         const hh::Vec3 from_ws = transform_point(origin_ws, ray.from);
         const hh::Vec3 to_ws = transform_point(origin_ws, ray.to);
@@ -156,7 +158,8 @@ struct SpawnEvaluator {
             !is_seen(transform_point(origin_ws, ray.head), palm_ws)) {
             return 0.0;
         }
-        const bool faces = hit && dot(normalized(from_ws - to_ws), hit->normal) >= k_faces;
+        const bool faces =
+            hit && dot(normalized(from_ws - to_ws), hit->normal) >= k_min_facing_cosine;
         return faces ? 1.0 : k_unfaced_score;
     }
 
@@ -174,7 +177,7 @@ struct SpawnEvaluator {
             }
         }
         for (const GrabRay& ray : rehearsal.grabs) {
-            score += this->score(origin_ws, ray);
+            score += grab_score(origin_ws, ray);
         }
         return score;
     }

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "components/hand_rig.hpp"
-#include "systems/rigs/builtin_hand_rig.hpp"
+#include "systems/rigs/hand_limits.hpp"
 
 namespace handhold {
 namespace {
@@ -37,8 +37,9 @@ double bend_rad(std::span<const std::optional<Vec3>> joints) {
 }
 
 double fist_bend_rad(FingerName name) {
-    static const HandRig rig = builtin_hand_rig(HandSide::right);
-    const FingerRig& finger = rig.fingers[static_cast<std::size_t>(name)];
+    FingerRig finger;
+    finger.name = name;
+    set_hand_limits(HandSide::right, finger);
     double sum_rad = 0.0;
     for (std::size_t link = name == FingerName::thumb ? 1 : 0; link < finger.link_count; ++link) {
         sum_rad += finger.fist.curl_rad[link];

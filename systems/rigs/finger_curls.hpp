@@ -21,7 +21,7 @@ using TrackedJoints = std::array<std::optional<Vec3>, k_tracked_joint_count>;
 //     curl = sum(bend_j) / sum(fist_j)
 //
 // bend_j: angle at joint j between the bones before and after it, radians; fist_j: the same angle
-// in a fist of the built-in hand. The joints are the finger's proximal, intermediate and distal
+// in a fist (set_hand_limits). The joints are the finger's proximal, intermediate and distal
 // ones. A thumb has only its proximal and distal ones, because opposition moves its first joint.
 FingerCurls finger_curls(const TrackedJoints& joints);
 

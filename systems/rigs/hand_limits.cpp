@@ -21,8 +21,6 @@ constexpr CurlLimits k_two_bones = {
 constexpr CurlLimits k_thumb = {
     {-10.0, -10.0, -10.0}, {28.0, 50.0, 65.0}, {10.0, 12.0, 10.0}, {-10.0, 50.0, 65.0}};
 constexpr double k_fist_opposition_deg = 50.0;
-// Depth to which a thumb presses into the fingers of its fist.
-constexpr double k_touch_m = 6e-3;
 constexpr double k_opposition_lower_deg = -85.0;
 constexpr double k_opposition_upper_deg = 70.0;
 // Range of a finger's spread to either side. Hands spread by 20 to 30 degrees between neighbours.
@@ -30,9 +28,9 @@ constexpr double k_spread_deg = 10.0;
 // Sideways component of the opposition axis / forward component.
 constexpr double k_opposition_lean = 0.25;
 
-// Greatest depth of the thumb in the fingers, all closed to a fist; at least k_touch_m.
+// Greatest depth of the thumb in the fingers, all closed to a fist; 0 if they do not overlap.
 double fist_overlap_m(const HandRig& rig, const FingerRig& thumb) {
-    double depth_m = k_touch_m;
+    double depth_m = 0.0;
     const auto on_thumb = finger_points(thumb, thumb.fist);
     for (const FingerRig& finger : rig.fingers) {
         const auto on_finger = finger_points(finger, finger.fist);
@@ -83,9 +81,10 @@ void clear_fist_thumb(HandRig& rig) {
         const FingerAngles closed = thumb.fist;
         FingerAngles best = closed;
         double least_m = fist_overlap_m(rig, thumb);
-        for (int step = 1; step <= k_steps && least_m > k_touch_m; ++step) {
+        for (int step = 1; step <= k_steps && least_m > k_fist_touch_m; ++step) {
             for (std::size_t link = 0; link < thumb.link_count; ++link) {
-                const double opens_rad = closed.curl_rad[link] - thumb.lower_rad[link];
+                const double opens_rad =
+                    std::max(0.0, closed.curl_rad[link] - thumb.rest_rad[link]);
                 thumb.fist.curl_rad[link] = closed.curl_rad[link] - opens_rad * step / k_steps;
             }
             if (const double overlap_m = fist_overlap_m(rig, thumb); overlap_m < least_m) {

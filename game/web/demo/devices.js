@@ -215,13 +215,12 @@ const k_dead_stick = 0.18;
 const k_snap_stick = 0.7;
 const k_fingers = ['middle', 'ring', 'pinky']; // index and thumb may point while the hand is closed
 // The joints of each finger, from the one before its first bend to the tip, and the bends' sum in a fist,
-// radians: systems/rigs/finger_curls.cpp, with the limits of systems/rigs/hand_limits.cpp.
+// radians: systems/rigs/finger_curls.cpp, with the fist of systems/rigs/hand_limits.cpp.
 const k_bends = [
     ['thumb-metacarpal', 'thumb-phalanx-proximal', 'thumb-phalanx-distal', 'thumb-tip'],
     ...['index', 'middle', 'ring', 'pinky'].map((name) => ['metacarpal', 'phalanx-proximal', 'phalanx-intermediate', 'phalanx-distal', 'tip'].map((joint) => `${name}-finger-${joint}`)),
 ];
-const k_fist = (lower, upper) => upper.reduce((sum, high, i) => sum + (lower[i] + 0.85 * (high - lower[i])) * Math.PI / 180, 0);
-const k_fist_bends = [k_fist([-10, -10], [50, 65]), ...Array(4).fill(k_fist([-10, 0, 0], [115, 105, 75]))];
+const k_fist_bends = [50 + 65, ...Array(4).fill(110 + 105 + 75)].map((degrees) => degrees * Math.PI / 180);
 const k_unknown_curl = -1;
 const unknownCurls = () => Array(5).fill(k_unknown_curl);
 const k_open_palm_m = 0.19; // from the palm to the tips of straight fingers, as the curl has it where no knuckle is known

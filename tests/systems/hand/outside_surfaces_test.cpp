@@ -144,8 +144,8 @@ TEST(OutsideSurfaces, HandThatBeginsToGripInAWallNeverDisappearsInIt) {
     EXPECT_GT(without, 20);
 }
 
-// The player sees each frame: a fist that lets go goes back to where it is tracked by the palm's
-// own rate, and does not jump.
+// A fist that has arrived returns to its tracked wrist at the palm's rate when it lets go, and does
+// not jump.
 TEST(OutsideSurfaces, FistInAWallThatLetsGoDoesNotJump) {
     const GripMesh block = build_grip_mesh(make_block_mesh());
     const HandRig rig = builtin_hand_rig(HandSide::right);
@@ -184,8 +184,9 @@ TEST(OutsideSurfaces, FistInAWallThatLetsGoDoesNotJump) {
     EXPECT_GT(moved, 20);
 }
 
-// Fists of both hands, of players of any scale, and in bodies and meshes at any place.
-TEST(OutsideSurfaces, FistIsShownAlikeOnEitherSideAtAnyScaleAndPlace) {
+// Fists of both hands, and in bodies and meshes at any place. The hand's metres are the world's
+// over the player's scale, whatever it is.
+TEST(OutsideSurfaces, FistIsShownAlikeOnEitherSideAndAtAnyPlace) {
     const Mesh block = make_block_mesh();
     const GripMesh wall = build_grip_mesh(block);
     const HandRig rig = builtin_hand_rig(HandSide::right);
