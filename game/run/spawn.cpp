@@ -29,7 +29,7 @@ constexpr std::size_t k_played = 16;           // the best candidates are played
 constexpr std::size_t k_head_checks = 12;
 constexpr double k_head_clearance_m = 0.06;  // distance from surfaces beyond the head's radius
 constexpr double k_palm_gap_m = 0.02;        // gap between the first grab's palm and the surface
-constexpr double k_min_facing_cosine = 0.5;  // between a palm's ray and its surface's normal
+constexpr double k_min_facing_cosine = 0.5;  // least cosine between ray and normal
 // Score of a grab near a surface that its palm does not face.
 constexpr double k_unfaced_score = 0.25;
 

@@ -144,7 +144,7 @@ TEST(OutsideSurfaces, HandThatBeginsToGripInAWallNeverDisappearsInIt) {
     EXPECT_GT(without, 20);
 }
 
-// A fist that has arrived returns to its tracked wrist at the palm's rate when it lets go, and does
+// A fist at its target returns to its tracked wrist at the palm's rate when it lets go, and does
 // not jump.
 TEST(OutsideSurfaces, FistInAWallThatLetsGoDoesNotJump) {
     const GripMesh block = build_grip_mesh(make_block_mesh());
