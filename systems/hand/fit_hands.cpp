@@ -53,29 +53,23 @@ FingerAngles empty_angles(const FingerRig& finger, const HandTracking& hand,
     return angles;
 }
 
-// A fist is on the player's side of the surfaces around it, and touches what it grips.
-Vec3 fist_wrist_bs(const HandSurroundings& hand, const FingerPose& pose, double reach_m) {
-    const Pose outside_bs = wrist_outside_bs(hand, {hand.wrist_bs, pose.target});
-    return wrist_touching_bs(hand, {outside_bs, pose.target}, reach_m).position;
-}
-
 void pose_unsupported_hand(const HandSurroundings& hand, const HandTracking& tracking,
-                           const Tuning& tuning, PalmOffset& offset, FingerPose& pose) {
+                           const ThumbTuning& tuning, PalmOffset& offset, FingerPose& pose) {
     for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
         const FingerRig& finger = hand.rig->fingers[f];
         if (pose.is_authored[f]) {
             pose.target[f] = pose.closed[f];
         } else {
             pose.target[f] =
-                hand.is_gripping ? finger.fist : empty_angles(finger, tracking, tuning.thumb);
+                hand.is_gripping ? finger.fist : empty_angles(finger, tracking, tuning);
         }
     }
     offset.target_m = offset.held_m;
     offset.target_turn_rad = offset.held_turn_rad;
-    if (hand.authored == nullptr && !hand.meshes.empty()) {  // a fist: held at its tracked wrist
-        const Vec3 moved_bs =
-            fist_wrist_bs(hand, pose, tuning.palm.reach_m) - hand.wrist_bs.position;
-        offset.target_m = hand.wrist_bs.rotation.conjugate() * moved_bs;
+    if (hand.authored == nullptr) {  // a fist goes to the player's side of surfaces
+        const Pose& tracked_bs = hand.wrist_bs;
+        const Vec3 outside_bs = wrist_outside_bs(hand, {tracked_bs, pose.target}).position;
+        offset.target_m = tracked_bs.rotation.conjugate() * (outside_bs - tracked_bs.position);
     }
     pose.fitted_body = k_no_entity;
     pose.is_converged = false;
@@ -298,7 +292,7 @@ void fit_hands(const FitHandsIo& io, const Tuning& tuning, StageStats& stats,
         PalmOffset& offset = io.offset.at(hand.hand);
         FingerPose& pose = io.fingers.at(hand.hand);
         if (surface.triangle == GripSurface::k_none) {
-            pose_unsupported_hand(hand, io.hand.at(hand.hand), tuning, offset, pose);
+            pose_unsupported_hand(hand, io.hand.at(hand.hand), tuning.thumb, offset, pose);
         } else {
             fit_one(hand, surface, tuning, stats, offset, pose, rows);
         }

@@ -157,7 +157,6 @@ HandRig builtin_hand_rig(HandSide side) {
     rig.palm_center_hs = Vec3(0.0, -0.014, -0.080);
     rig.palm_normal_hs = -Vec3::UnitY();
     add_joints(rig);
-    clear_fist_thumb(rig);
     return side == HandSide::right ? rig : mirror_hand_rig(rig);
 }
 

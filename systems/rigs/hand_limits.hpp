@@ -11,12 +11,6 @@ namespace handhold {
 // spread, positive towards the thumb's side, on either hand), and the fist.
 void set_hand_limits(HandSide side, FingerRig& finger);
 
-// Opens the thumb of the fist in 16 steps towards its rest pose until it is at most k_fist_touch_m
-// deep in the fingers; if it never is, takes the least deep step. Call it once, after
-// set_hand_limits, with lengths and radii known.
-inline constexpr double k_fist_touch_m = 6e-3;
-void clear_fist_thumb(HandRig& rig);
-
 // Direction of the thumb's first link at opposition 0, as an angle about the opposition axis: 0
 // points out of the thumb's side of the hand, positive turns it towards the palm's side. A sixth of
 // a turn.

@@ -157,7 +157,6 @@ Result<HandRigFit> fit_hand_rig(const SkinnedMesh& skin, HandSide side) {
     if (std::optional<FileError> error = take_own_numbers(skin, bones.value(), fit.rig)) {
         return *std::move(error);
     }
-    clear_fist_thumb(fit.rig);
     return fit;
 }
 

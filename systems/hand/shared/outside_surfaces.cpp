@@ -54,28 +54,25 @@ class PalmNear {
     double distance_m_ = 0.0;
 };
 
-// Calls visit(end_bs, radius_m) for the ends of the axes of the hand's capsules.
-template <typename Visit>
-void visit_ends(const HandSurroundings& hand, const HandPose& pose, const Visit& visit) {
-    for (const PalmCapsule& capsule : hand.rig->palm) {
-        visit(transform_point(pose.wrist_bs, capsule.a_hs), capsule.radius_m);
-        visit(transform_point(pose.wrist_bs, capsule.b_hs), capsule.radius_m);
-    }
-    for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
-        const FingerRig& finger = hand.rig->fingers[f];
-        const auto points_hs = finger_points(finger, pose.fingers[f]);
-        for (std::size_t i = 0; i < finger.link_count; ++i) {
-            visit(transform_point(pose.wrist_bs, points_hs[i + 1]), finger.radius_m[i]);
-        }
-    }
-}
-
 Exit exit_of_hand(const HandSurroundings& hand, const HandPose& pose) {
     const Vec3 palm_bs = transform_point(pose.wrist_bs, hand.rig->palm_center_hs);
     Exit deepest;
     for (const PlacedMesh& placed : hand.meshes) {
         const PalmNear near(placed, *hand.eye_bs, palm_bs);
-        visit_ends(hand, pose, [&](const Vec3& end_bs, double) { near.exit_of(end_bs, deepest); });
+        const auto add = [&](const Vec3& point_hs) {
+            near.exit_of(transform_point(pose.wrist_bs, point_hs), deepest);
+        };
+        for (const PalmCapsule& capsule : hand.rig->palm) {
+            add(capsule.a_hs);
+            add(capsule.b_hs);
+        }
+        for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
+            const FingerRig& finger = hand.rig->fingers[f];
+            const auto points_hs = finger_points(finger, pose.fingers[f]);
+            for (std::size_t i = 0; i < finger.link_count; ++i) {
+                add(points_hs[i + 1]);
+            }
+        }
     }
     return deepest;
 }
@@ -107,21 +104,6 @@ Pose wrist_outside_bs(const HandSurroundings& hand, const HandPose& pose) {
         }
     }
     return moved.wrist_bs;
-}
-
-Pose wrist_touching_bs(const HandSurroundings& hand, const HandPose& pose, double reach_m) {
-    const PlacedMesh& placed = hand.meshes.front();
-    double gap_m = reach_m;
-    Vec3 way = Vec3::Zero();
-    visit_ends(hand, pose, [&](const Vec3& end_bs, double radius_m) {
-        const Vec3 end = inverse_transform_point(placed.pose, end_bs);
-        const auto near = placed.mesh->contact_bvh.closest_point(end, gap_m + radius_m);
-        if (near) {
-            gap_m = std::max(0.0, near->distance_m - radius_m);
-            way = gap_m > 0.0 ? Vec3(gap_m / near->distance_m * (near->point - end)) : Vec3::Zero();
-        }
-    });
-    return {pose.wrist_bs.position + placed.pose.rotation * way, pose.wrist_bs.rotation};
 }
 
 }  // namespace handhold

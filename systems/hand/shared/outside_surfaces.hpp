@@ -20,9 +20,4 @@ bool is_outside(const HandSurroundings& hand, const HandPose& pose);
 // is more than k_sight_m from all surfaces, or the way out is longer than that.
 Pose wrist_outside_bs(const HandSurroundings& hand, const HandPose& pose);
 
-// Returns the wrist of `pose`, moved by the smallest gap between the ends of the capsules' axes and
-// the hand's first mesh, so that the hand touches it. The wrist stays where it is if the gap is
-// larger than `reach_m`. Precondition: the hand has meshes.
-Pose wrist_touching_bs(const HandSurroundings& hand, const HandPose& pose, double reach_m);
-
 }  // namespace handhold
