@@ -150,7 +150,9 @@ test('each finger has its own curl, and keeps it while it is not seen', () => {
     const curls = (bends) => read(headset, session, [bent('right', bends)]).curls[1].fingers;
     assert.deepEqual(curls([0, 0, 0, 0, 0]).map((curl) => Math.abs(curl) < 1e-9), Array(5).fill(true));
     const pointing = curls([0.4, 0, 1.4, 1.4, 1.4]);
-    assert.ok(pointing[0] > 0.4 && pointing[0] < 0.6 && pointing[1] < 1e-9 && pointing[2] > 0.9, `${pointing}`);
+    const fist = { thumb: (50 + 65) * Math.PI / 180, finger: (110 + 105 + 75) * Math.PI / 180 }; // systems/rigs/hand_limits.cpp
+    const expected = [2 * 0.4 / fist.thumb, 0, ...Array(3).fill(3 * 1.4 / fist.finger)];
+    assert.ok(pointing.every((curl, finger) => Math.abs(curl - expected[finger]) < 1e-9), `${pointing}`);
     assert.deepEqual(curls([0.4, null, null, null, null]), pointing);
     assert.deepEqual(read(headset, session, [controller('right', {})]).curls[1].fingers, Array(5).fill(-1));
 });
