@@ -12,7 +12,7 @@ namespace {
 
 using test::Random;
 
-// A hand whose digits are longer, shorter and thinner than the built-in ones.
+// A hand whose digits differ in length and thickness from the built-in ones.
 HandRig random_hand(Random& random, HandSide side) {
     HandRig rig = builtin_hand_rig(side);
     for (FingerRig& finger : rig.fingers) {
@@ -45,7 +45,9 @@ double thumb_gap_m(const HandRig& rig, std::size_t first_link) {
     return gap_m;
 }
 
-// Hands of any proportions: the fist is one pose for all of them.
+// One pose serves hands of different proportions. The claim is the side on which the thumb lies.
+// The depth is a record, not a goal: 12.7 mm among these hands, 18.6 mm in the fist before decision
+// 168.
 TEST(Fist, ThumbLiesAcrossTheFingersWithinItsLimits) {
     constexpr double k_most_deep_m = 0.013;
     Random random(5001);
