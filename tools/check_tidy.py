@@ -24,7 +24,7 @@ ROOT = Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build" / "tidy"
 MARKS = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "handhold" / "tidy"
 FOLDERS = ("engine", "components", "systems", "game", "tools")
-MOST_TOGETHER = 24
+MOST_TOGETHER = 96
 
 
 @dataclass(frozen=True)
