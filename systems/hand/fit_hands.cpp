@@ -54,22 +54,23 @@ FingerAngles empty_angles(const FingerRig& finger, const HandTracking& hand,
 }
 
 void pose_unsupported_hand(const HandSurroundings& hand, const HandTracking& tracking,
-                           const ThumbTuning& tuning, PalmOffset& offset, FingerPose& pose) {
+                           const Tuning& tuning, PalmOffset& offset, FingerPose& pose) {
     for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
         const FingerRig& finger = hand.rig->fingers[f];
         if (pose.is_authored[f]) {
             pose.target[f] = pose.closed[f];
         } else {
             pose.target[f] =
-                hand.is_gripping ? finger.fist : empty_angles(finger, tracking, tuning);
+                hand.is_gripping ? finger.fist : empty_angles(finger, tracking, tuning.thumb);
         }
     }
     offset.target_m = offset.held_m;
     offset.target_turn_rad = offset.held_turn_rad;
-    if (hand.authored == nullptr) {  // a fist goes to the player's side of surfaces
-        const Pose& tracked_bs = hand.wrist_bs;
-        const Vec3 outside_bs = wrist_outside_bs(hand, {tracked_bs, pose.target}).position;
-        offset.target_m = tracked_bs.rotation.conjugate() * (outside_bs - tracked_bs.position);
+    if (hand.authored == nullptr && !hand.meshes.empty()) {  // a fist, held at its tracked wrist
+        const HandPose tracked = {hand.wrist_bs, pose.target};
+        HandPose fist = {wrist_outside_bs(hand, tracked), pose.target};
+        fist.wrist_bs.position += way_to_touch(hand, fist, tuning.palm.reach_m);
+        offset.target_m = inverse_transform_point(hand.wrist_bs, fist.wrist_bs.position);
     }
     pose.fitted_body = k_no_entity;
     pose.is_converged = false;
@@ -292,7 +293,7 @@ void fit_hands(const FitHandsIo& io, const Tuning& tuning, StageStats& stats,
         PalmOffset& offset = io.offset.at(hand.hand);
         FingerPose& pose = io.fingers.at(hand.hand);
         if (surface.triangle == GripSurface::k_none) {
-            pose_unsupported_hand(hand, io.hand.at(hand.hand), tuning.thumb, offset, pose);
+            pose_unsupported_hand(hand, io.hand.at(hand.hand), tuning, offset, pose);
         } else {
             fit_one(hand, surface, tuning, stats, offset, pose, rows);
         }

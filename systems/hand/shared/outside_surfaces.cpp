@@ -1,6 +1,7 @@
 #include "systems/hand/shared/outside_surfaces.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "engine/geometry/surface_crossings.hpp"
@@ -54,24 +55,41 @@ class PalmNear {
     double distance_m_ = 0.0;
 };
 
+// The ends of the axes of a hand's capsules.
+struct AxisEnds {
+    static constexpr std::size_t k_most = 2 * k_max_palm_capsules + k_finger_count * k_max_links;
+
+    std::array<Vec3, k_most> at_bs;
+    std::array<double, k_most> radius_m = {};
+    std::size_t count = 0;
+
+    AxisEnds(const HandRig& rig, const HandPose& pose) {
+        const auto add = [&](const Vec3& at_hs, double radius) {
+            at_bs[count] = transform_point(pose.wrist_bs, at_hs);
+            radius_m[count++] = radius;
+        };
+        for (const PalmCapsule& capsule : rig.palm) {
+            add(capsule.a_hs, capsule.radius_m);
+            add(capsule.b_hs, capsule.radius_m);
+        }
+        for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+            const FingerRig& finger = rig.fingers[f];
+            const auto points_hs = finger_points(finger, pose.fingers[f]);
+            for (std::size_t i = 0; i < finger.link_count; ++i) {
+                add(points_hs[i + 1], finger.radius_m[i]);
+            }
+        }
+    }
+};
+
 Exit exit_of_hand(const HandSurroundings& hand, const HandPose& pose) {
     const Vec3 palm_bs = transform_point(pose.wrist_bs, hand.rig->palm_center_hs);
+    const AxisEnds ends(*hand.rig, pose);
     Exit deepest;
     for (const PlacedMesh& placed : hand.meshes) {
         const PalmNear near(placed, *hand.eye_bs, palm_bs);
-        const auto add = [&](const Vec3& point_hs) {
-            near.exit_of(transform_point(pose.wrist_bs, point_hs), deepest);
-        };
-        for (const PalmCapsule& capsule : hand.rig->palm) {
-            add(capsule.a_hs);
-            add(capsule.b_hs);
-        }
-        for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
-            const FingerRig& finger = hand.rig->fingers[f];
-            const auto points_hs = finger_points(finger, pose.fingers[f]);
-            for (std::size_t i = 0; i < finger.link_count; ++i) {
-                add(points_hs[i + 1]);
-            }
+        for (std::size_t i = 0; i < ends.count; ++i) {
+            near.exit_of(ends.at_bs[i], deepest);
         }
     }
     return deepest;
@@ -104,6 +122,22 @@ Pose wrist_outside_bs(const HandSurroundings& hand, const HandPose& pose) {
         }
     }
     return moved.wrist_bs;
+}
+
+Vec3 way_to_touch(const HandSurroundings& hand, const HandPose& pose, double reach_m) {
+    const PlacedMesh& placed = hand.meshes.front();
+    const AxisEnds ends(*hand.rig, pose);
+    double gap_m = reach_m;
+    Vec3 way = Vec3::Zero();
+    for (std::size_t i = 0; i < ends.count; ++i) {
+        const Vec3 end = inverse_transform_point(placed.pose, ends.at_bs[i]);
+        const auto near = placed.mesh->contact_bvh.closest_point(end, gap_m + ends.radius_m[i]);
+        if (near) {
+            gap_m = std::max(0.0, near->distance_m - ends.radius_m[i]);
+            way = gap_m > 0.0 ? Vec3(gap_m / near->distance_m * (near->point - end)) : Vec3::Zero();
+        }
+    }
+    return placed.pose.rotation * way;
 }
 
 }  // namespace handhold

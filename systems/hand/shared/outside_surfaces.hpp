@@ -20,4 +20,10 @@ bool is_outside(const HandSurroundings& hand, const HandPose& pose);
 // is more than k_sight_m from all surfaces, or the way out is longer than that.
 Pose wrist_outside_bs(const HandSurroundings& hand, const HandPose& pose);
 
+// Returns the way by which the hand touches its first mesh, in the frame
+// of HandSurroundings::wrist_bs: the smallest gap between the ends of the capsules' axes and that
+// mesh. Zero if the hand touches it already or the gap is larger than `reach_m`. Precondition: the
+// hand has meshes.
+Vec3 way_to_touch(const HandSurroundings& hand, const HandPose& pose, double reach_m);
+
 }  // namespace handhold
