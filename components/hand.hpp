@@ -45,8 +45,8 @@ struct PalmOffset {
     // Written by constrain_palms: the palm within its limits, or in its authored grip.
     Vec3 held_m = Vec3::Zero();
     Vec3 held_turn_rad = Vec3::Zero();
-    // Written by fit_hands. `target`: the fitted wrist; of a fist, a wrist on the
-    // player's side of surfaces that touches what it grips. `shown`: follows it at up to
+    // Written by fit_hands. `target`: the fitted wrist; of a fist, the tracked wrist moved
+    // to the player's side of surfaces and into contact. `shown`: follows it at up to
     // PalmTuning::rate_mps; PalmPose has the shown wrist, which may be moved out of surfaces.
     Vec3 target_m = Vec3::Zero();
     Vec3 target_turn_rad = Vec3::Zero();

@@ -53,6 +53,15 @@ FingerAngles empty_angles(const FingerRig& finger, const HandTracking& hand,
     return angles;
 }
 
+// The tracked wrist of a fist, moved to the player's side of surfaces, then until the fist touches
+// what it grips, unless that would be behind another surface.
+Pose fist_wrist_bs(const HandSurroundings& hand, const FingerPose& pose, double reach_m) {
+    const HandPose outside = {wrist_outside_bs(hand, {hand.wrist_bs, pose.target}), pose.target};
+    HandPose touching = outside;
+    touching.wrist_bs.position += displacement_to_touch(hand, outside, reach_m);
+    return is_outside(hand, touching) ? touching.wrist_bs : outside.wrist_bs;
+}
+
 void pose_unsupported_hand(const HandSurroundings& hand, const HandTracking& tracking,
                            const Tuning& tuning, PalmOffset& offset, FingerPose& pose) {
     for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
@@ -66,11 +75,9 @@ void pose_unsupported_hand(const HandSurroundings& hand, const HandTracking& tra
     }
     offset.target_m = offset.held_m;
     offset.target_turn_rad = offset.held_turn_rad;
-    if (hand.authored == nullptr && !hand.meshes.empty()) {  // a fist, held at its tracked wrist
-        const HandPose tracked = {hand.wrist_bs, pose.target};
-        HandPose fist = {wrist_outside_bs(hand, tracked), pose.target};
-        fist.wrist_bs.position += way_to_touch(hand, fist, tuning.palm.reach_m);
-        offset.target_m = inverse_transform_point(hand.wrist_bs, fist.wrist_bs.position);
+    if (hand.authored == nullptr && !hand.meshes.empty()) {
+        const Pose fist_bs = fist_wrist_bs(hand, pose, tuning.palm.reach_m);
+        offset.target_m = inverse_transform_point(hand.wrist_bs, fist_bs.position);
     }
     pose.fitted_body = k_no_entity;
     pose.is_converged = false;

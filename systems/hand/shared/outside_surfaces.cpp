@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "engine/core/check.hpp"
 #include "engine/geometry/surface_crossings.hpp"
 #include "systems/rigs/hand_kinematics.hpp"
 
@@ -55,7 +56,7 @@ class PalmNear {
     double distance_m_ = 0.0;
 };
 
-// The ends of the axes of a hand's capsules.
+// The ends of the axes of a hand's capsules, without those at the digits' first hinges.
 struct AxisEnds {
     static constexpr std::size_t k_most = 2 * k_max_palm_capsules + k_finger_count * k_max_links;
 
@@ -64,6 +65,7 @@ struct AxisEnds {
     std::size_t count = 0;
 
     AxisEnds(const HandRig& rig, const HandPose& pose) {
+        HH_CHECK(rig.palm.size() <= k_max_palm_capsules, "too many palm capsules", rig.palm.size());
         const auto add = [&](const Vec3& at_hs, double radius) {
             at_bs[count] = transform_point(pose.wrist_bs, at_hs);
             radius_m[count++] = radius;
@@ -124,7 +126,7 @@ Pose wrist_outside_bs(const HandSurroundings& hand, const HandPose& pose) {
     return moved.wrist_bs;
 }
 
-Vec3 way_to_touch(const HandSurroundings& hand, const HandPose& pose, double reach_m) {
+Vec3 displacement_to_touch(const HandSurroundings& hand, const HandPose& pose, double reach_m) {
     const PlacedMesh& placed = hand.meshes.front();
     const AxisEnds ends(*hand.rig, pose);
     double gap_m = reach_m;

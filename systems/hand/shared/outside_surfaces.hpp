@@ -20,10 +20,11 @@ bool is_outside(const HandSurroundings& hand, const HandPose& pose);
 // is more than k_sight_m from all surfaces, or the way out is longer than that.
 Pose wrist_outside_bs(const HandSurroundings& hand, const HandPose& pose);
 
-// Returns the way by which the hand touches its first mesh, in the frame
-// of HandSurroundings::wrist_bs: the smallest gap between the ends of the capsules' axes and that
-// mesh. Zero if the hand touches it already or the gap is larger than `reach_m`. Precondition: the
-// hand has meshes.
-Vec3 way_to_touch(const HandSurroundings& hand, const HandPose& pose, double reach_m);
+// Returns the smallest translation that brings a sphere at an end of the capsules' axes
+// into contact with the gripped body's mesh, HandSurroundings::meshes.front(), in the frame
+// of HandSurroundings::wrist_bs. Zero if one touches it, or if none is within `reach_m` >= 0
+// of it. A capsule may touch the mesh between its ends: it is then moved deeper.
+// Precondition: the hand has meshes.
+Vec3 displacement_to_touch(const HandSurroundings& hand, const HandPose& pose, double reach_m);
 
 }  // namespace handhold

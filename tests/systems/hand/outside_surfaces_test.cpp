@@ -193,14 +193,16 @@ TEST(OutsideSurfaces, FistIsShownAlikeOnEitherSideAndAtAnyPlace) {
     constexpr double k_near_m = 1e-9;
     Random random(4913);
     int moved = 0;
+    int lowered = 0;
     for (int i = 0; i < 100; ++i) {
-        const Pose wrist = buried_wrist(random, rig);
+        const Pose wrist = buried_wrist(random, rig, 0.08);
         const Vec3 eye = eye_above(random);
         SeenHand hand(wall, wrist, eye);
         hand.frame(k_unlimited_s);
         if (!hand.is_fist()) {
             continue;
         }
+        lowered += hand.shown_bs().position.y() < wrist.position.y() - 0.01 ? 1 : 0;
         moved += (hand.shown_bs().position - wrist.position).norm() > 0.01 ? 1 : 0;
 
         const Vec3 mirrored_eye = mirror_hand_pose({eye, Quat::Identity()}).position;
@@ -228,6 +230,47 @@ TEST(OutsideSurfaces, FistIsShownAlikeOnEitherSideAndAtAnyPlace) {
         EXPECT_LT((elsewhere.shown_bs().position - scaled_bs).norm(), k_near_m) << i;
     }
     EXPECT_GT(moved, 20);
+    EXPECT_GT(lowered, 10);
+}
+
+// Above a wall that it grips, with a board of another body before it.
+TEST(OutsideSurfaces, FistDoesNotPassABoardToTouchWhatItGrips) {
+    const GripMesh wall = build_grip_mesh(make_block_mesh());
+    const GripMesh board = build_grip_mesh(make_sheet_mesh(0.02));
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+    Random random(4914);
+    int free = 0;
+    for (int i = 0; i < 200; ++i) {
+        Pose wrist = buried_wrist(random, rig);
+        wrist.position.y() += 0.19;
+        SeenHand hand(wall, wrist, eye_above(random));
+        hand.frame(k_unlimited_s);
+        const double alone_m = lowest_m(hand);
+        hand.hands.front().meshes.push_back({&board, {}});
+        hand.frame(k_unlimited_s);
+        if (hand.is_fist() && lowest_m(hand, wrist) > 0.02) {
+            free += alone_m < 0.02 ? 1 : 0;
+            EXPECT_GT(lowest_m(hand), 0.02) << i;
+        }
+    }
+    EXPECT_GT(free, 20);
+}
+
+TEST(OutsideSurfaces, NothingBeyondReachIsTouched) {
+    const GripMesh wall = build_grip_mesh(make_block_mesh());
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+    Random random(4915);
+    for (int i = 0; i < 100; ++i) {
+        Pose wrist = buried_wrist(random, rig);
+        wrist.position.y() += 0.3;
+        SeenHand hand(wall, wrist, eye_above(random));
+        const HandPose pose = {wrist, hand.pose().shown};
+        const double gap_m = -displacement_to_touch(hand.hands.front(), pose, 1.0).y();
+        ASSERT_GT(gap_m, 0.0) << i;
+        EXPECT_LT(displacement_to_touch(hand.hands.front(), pose, 1.001 * gap_m).y(), 0.0) << i;
+        EXPECT_EQ(displacement_to_touch(hand.hands.front(), pose, 0.999 * gap_m), Vec3::Zero());
+        EXPECT_EQ(displacement_to_touch(hand.hands.front(), pose, 0.0), Vec3::Zero()) << i;
+    }
 }
 
 // The quarter x > 0, y > 0 is free, between two walls that meet at the origin.
