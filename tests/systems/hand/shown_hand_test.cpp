@@ -250,7 +250,7 @@ TEST_F(ShownHand, GrippingHandWithItsBackOrEdgeToASurfaceIsAFist) {
         if (tracked_m > 0.0) {
             EXPECT_NEAR(lowest_skin_m(hand, hand.shown_bs()), 0.0, 1e-9) << i;
         } else {
-            EXPECT_EQ(hand.shown_bs().position, hand.wrist_bs().position) << i;
+            EXPECT_GE(hand.shown_bs().position.y(), hand.wrist_bs().position.y()) << i;
         }
         for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
             EXPECT_EQ(hand.pose().shown[f].curl_rad, rig.fingers[f].fist.curl_rad);
