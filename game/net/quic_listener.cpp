@@ -15,7 +15,7 @@
 namespace handhold {
 namespace {
 
-constexpr int k_kernel_buffer_bytes = 1 << 22;
+constexpr int k_listener_buffer_bytes = 1 << 22;
 // Headers of IP and UDP.
 std::size_t headers_bytes(const UdpPlace& from) { return from.family() == AF_INET6 ? 48 : 28; }
 // Datagrams in a peer's name may come at so many times the rate that the peer itself may use: so
@@ -58,7 +58,7 @@ class QuicListener final : public DatagramListener {
                  std::unique_ptr<TlsCredentials> credentials)
         : settings_(settings),
           credentials_(std::move(credentials)),
-          socket_(place, k_kernel_buffer_bytes, UdpSocket::Side::server),
+          socket_(place, k_listener_buffer_bytes, UdpSocket::Side::server),
           own_(socket_.is_valid() ? socket_.place() : place),
           arrivals_(socket_, own_) {}
     ~QuicListener() override {

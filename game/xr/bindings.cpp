@@ -6,13 +6,13 @@ namespace {
 using enum HeadsetAction;
 using Hands = HeadsetBinding::Hands;
 
-constexpr const char* k_grip = "/input/grip/pose";
+constexpr const char* k_grip_path = "/input/grip/pose";
 constexpr const char* k_aim = "/input/aim/pose";
 constexpr const char* k_palm = "/input/palm_ext/pose";
 constexpr const char* k_shake = "/output/haptic";
 
 constexpr std::array<HeadsetBinding, 11> k_touch = {{
-    {grip_pose, k_grip},
+    {grip_pose, k_grip_path},
     {aim_pose, k_aim},
     {palm_pose, k_palm},
     {squeeze, "/input/squeeze/value"},
@@ -25,7 +25,7 @@ constexpr std::array<HeadsetBinding, 11> k_touch = {{
     {shake, k_shake},
 }};
 constexpr std::array<HeadsetBinding, 9> k_index = {{
-    {grip_pose, k_grip},
+    {grip_pose, k_grip_path},
     {aim_pose, k_aim},
     {palm_pose, k_palm},
     {squeeze, "/input/squeeze/value"},
@@ -36,7 +36,7 @@ constexpr std::array<HeadsetBinding, 9> k_index = {{
     {shake, k_shake},
 }};
 constexpr std::array<HeadsetBinding, 9> k_vive = {{
-    {grip_pose, k_grip},
+    {grip_pose, k_grip_path},
     {aim_pose, k_aim},
     {palm_pose, k_palm},
     {squeeze, "/input/squeeze/click"},
@@ -47,7 +47,7 @@ constexpr std::array<HeadsetBinding, 9> k_vive = {{
     {shake, k_shake},
 }};
 constexpr std::array<HeadsetBinding, 9> k_mixed_reality = {{
-    {grip_pose, k_grip},
+    {grip_pose, k_grip_path},
     {aim_pose, k_aim},
     {palm_pose, k_palm},
     {squeeze, "/input/squeeze/click"},
@@ -58,7 +58,7 @@ constexpr std::array<HeadsetBinding, 9> k_mixed_reality = {{
     {shake, k_shake},
 }};
 constexpr std::array<HeadsetBinding, 6> k_simple = {{
-    {grip_pose, k_grip},
+    {grip_pose, k_grip_path},
     {aim_pose, k_aim},
     {palm_pose, k_palm},
     {squeeze, "/input/select/click"},

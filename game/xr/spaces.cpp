@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <vector>
 
+#include "game/scene/player_defaults.hpp"
+
 namespace handhold {
 namespace {
-
-constexpr float k_eye_height_m = 1.6F;
 
 bool make_space(XrSession session, XrReferenceSpaceType type, float below_m, OwnedXrSpace& space,
                 std::string& why_not) {
@@ -51,8 +51,8 @@ std::optional<HeadsetSpaces> make_headset_spaces(const HeadsetInstance& instance
     if (!made) {
         spaces.room_name = "local";
         spaces.room_type = XR_REFERENCE_SPACE_TYPE_LOCAL;
-        made = make_space(session, XR_REFERENCE_SPACE_TYPE_LOCAL, k_eye_height_m, spaces.room,
-                          why_not);
+        made = make_space(session, XR_REFERENCE_SPACE_TYPE_LOCAL,
+                          static_cast<float>(k_eye_height_m), spaces.room, why_not);
     }
     if (!made || !make_space(session, XR_REFERENCE_SPACE_TYPE_VIEW, 0.0F, spaces.head, why_not)) {
         return std::nullopt;
