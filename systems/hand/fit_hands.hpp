@@ -66,9 +66,10 @@ struct FitHandsIo {
 // FingerTuning::close_radps (closing) and open_radps (opening, and opposition), all angles of a
 // digit by the same share of their remaining change. A gripping hand without a surface goes to the
 // player's side of the surfaces around it, and on until it touches the gripped body, if that is
-// within PalmTuning::reach_m (shared/outside_surfaces.hpp). A gripping hand on its way to a pose
-// that is outside of surfaces (is_outside) is drawn outside at once. Authored grips do neither.
-// Empty hands are drawn as tracked. Only the shown hand moves, never the player.
+// within PalmTuning::reach_m and no other surface is between them (shared/outside_surfaces.hpp). A
+// gripping hand on its way to a pose that is outside of surfaces (is_outside) is drawn outside at
+// once. Authored grips do neither. Empty hands are drawn as tracked. Only the shown hand moves,
+// never the player.
 //
 // Fallbacks counted: hand_penetrates, once per closing after which the fit still penetrates by
 // millimetres.

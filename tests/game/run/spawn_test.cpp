@@ -49,7 +49,7 @@ TEST(FindSpawn, PalmsFaceWhatTheyGrip) {
         gripped += found.gripped == 1 ? 1 : 0;
         EXPECT_GE(facing(scene.host, found.origin_ws, controller), 0.5) << i;
     }
-    EXPECT_GE(gripped, 7);  // all 8 when it was written
+    EXPECT_GE(gripped, 7);  // places whose grabs grip win, if there is one
 }
 
 }  // namespace

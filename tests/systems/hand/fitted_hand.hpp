@@ -9,6 +9,7 @@
 #include "systems/hand/shared/finger_chain.hpp"
 #include "systems/hand/sweep_fingers.hpp"
 #include "systems/rigs/builtin_hand_rig.hpp"
+#include "systems/rigs/hand_kinematics.hpp"
 #include "tests/systems/frame/column_scene.hpp"
 
 namespace handhold::test {
@@ -125,6 +126,23 @@ struct FittedHand {
     Vec3 palm_up_bs() { return shown_bs().rotation * -rig.palm_normal_hs; }
     const FingerPose& pose() { return fingers.at(k_right); }
 };
+
+// Calls visit(end, radius_m) for the ends of the axes of the shown hand's capsules, in the frame
+// of `wrist`.
+template <typename Visit>
+void visit_axis_ends(const FittedHand& hand, const Pose& wrist, const Visit& visit) {
+    for (const PalmCapsule& capsule : hand.rig.palm) {
+        visit(transform_point(wrist, capsule.a_hs), capsule.radius_m);
+        visit(transform_point(wrist, capsule.b_hs), capsule.radius_m);
+    }
+    for (std::size_t f = 0; f < hand.rig.fingers.size(); ++f) {
+        const FingerRig& finger = hand.rig.fingers[f];
+        const auto points_hs = finger_points(finger, hand.fingers.at(k_right).shown[f]);
+        for (std::size_t i = 0; i < finger.link_count; ++i) {
+            visit(transform_point(wrist, points_hs[i + 1]), finger.radius_m[i]);
+        }
+    }
+}
 
 // The wrist that puts the palm's centre at `center` with the back of the hand along `up` and the
 // fingers as close to -Z as possible.

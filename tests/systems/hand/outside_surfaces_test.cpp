@@ -62,29 +62,16 @@ Vec3 eye_above(Random& random) {
 }
 
 // Heights of the lowest and highest axes of a hand's capsules.
-std::array<double, 2> heights_m(const HandRig& rig, const FingerPose& pose, const Pose& wrist) {
+std::array<double, 2> heights_m(const FittedHand& hand, const Pose& wrist) {
     std::array<double, 2> ends = {1.0, -1.0};
-    const auto add = [&](const Vec3& at_hs) {
-        const double height_m = transform_point(wrist, at_hs).y();
-        ends = {std::min(ends[0], height_m), std::max(ends[1], height_m)};
-    };
-    for (const PalmCapsule& capsule : rig.palm) {
-        add(capsule.a_hs);
-        add(capsule.b_hs);
-    }
-    for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
-        const auto points = finger_points(rig.fingers[f], pose.shown[f]);
-        for (std::size_t i = 0; i < rig.fingers[f].link_count; ++i) {
-            add(points[i + 1]);
-        }
-    }
+    test::visit_axis_ends(hand, wrist, [&](const Vec3& end, double) {
+        ends = {std::min(ends[0], end.y()), std::max(ends[1], end.y())};
+    });
     return ends;
 }
-double lowest_m(FittedHand& hand, const Pose& wrist) {
-    return heights_m(hand.rig, hand.pose(), wrist)[0];
-}
+double lowest_m(FittedHand& hand, const Pose& wrist) { return heights_m(hand, wrist)[0]; }
 double lowest_m(FittedHand& hand) { return lowest_m(hand, hand.shown_bs()); }
-double highest_m(FittedHand& hand) { return heights_m(hand.rig, hand.pose(), hand.wrist_bs())[1]; }
+double highest_m(FittedHand& hand) { return heights_m(hand, hand.wrist_bs())[1]; }
 
 // A hand that grips a mesh, seen from `eye_bs`.
 struct SeenHand : FittedHand {
@@ -132,7 +119,7 @@ TEST(OutsideSurfaces, HandThatBeginsToGripInAWallNeverDisappearsInIt) {
     int with_surface = 0;
     int without = 0;
     for (int i = 0; i < 100; ++i) {
-        const Pose wrist = buried_wrist(random, rig, 0.12);
+        const Pose wrist = buried_wrist(random, rig, 0.08);
         SeenHand hand(block, wrist, eye_above(random));
         for (int frame = 0; frame < 30; ++frame) {
             hand.frame(k_frame_s);

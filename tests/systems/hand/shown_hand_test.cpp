@@ -24,22 +24,11 @@ void let_go(FittedHand& hand) {
 }
 
 // Height of the lowest point of the skin of a shown hand, if its wrist were at `wrist`.
-double lowest_skin_m(FittedHand& hand, const Pose& wrist) {
+double lowest_skin_m(const FittedHand& hand, const Pose& wrist) {
     double lowest_m = 1.0;
-    const auto add = [&](const Vec3& at_hs, double radius_m) {
-        lowest_m = std::min(lowest_m, transform_point(wrist, at_hs).y() - radius_m);
-    };
-    for (const PalmCapsule& capsule : hand.rig.palm) {
-        add(capsule.a_hs, capsule.radius_m);
-        add(capsule.b_hs, capsule.radius_m);
-    }
-    for (std::size_t f = 0; f < hand.rig.fingers.size(); ++f) {
-        const FingerRig& finger = hand.rig.fingers[f];
-        const auto points_hs = finger_points(finger, hand.pose().shown[f]);
-        for (std::size_t i = 0; i < finger.link_count; ++i) {
-            add(points_hs[i + 1], finger.radius_m[i]);
-        }
-    }
+    test::visit_axis_ends(hand, wrist, [&](const Vec3& end, double radius_m) {
+        lowest_m = std::min(lowest_m, end.y() - radius_m);
+    });
     return lowest_m;
 }
 
