@@ -2,8 +2,8 @@
 """Runs clang-tidy (.clang-tidy, every finding an error) over the product's sources. Tests are checked by warnings and format only:
 GoogleTest's macros would double the time and add no finding.
 
-Parsing headers takes nearly all of clang-tidy's time, so sources that compile as one are checked together as one joint source. Joint
-sources that were clean and are unchanged, including their headers, are skipped: their marks are in the user's cache folder.
+Parsing headers takes nearly all of clang-tidy's time, so sources are checked together as one joint source. Joint sources that were clean
+and are unchanged, including their headers, are skipped: their marks are in the user's cache folder.
 
 The compile commands come from build/tidy, which is configured without precompiled headers, because clang-tidy cannot read GCC's.
 
@@ -24,7 +24,7 @@ ROOT = Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build" / "tidy"
 MARKS = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "handhold" / "tidy"
 FOLDERS = ("engine", "components", "systems", "game", "tools")
-MOST_TOGETHER = 96
+MOST_TOGETHER = 24
 
 
 @dataclass(frozen=True)
@@ -77,12 +77,6 @@ def joints_of(sources: dict[tuple[str, ...], list[Path]], most: int) -> list[Joi
     return joints
 
 
-def compiles(joint: Joint) -> bool:
-    """False if two sources define the same file-local name differently."""
-    run = subprocess.run(["clang++", *joint.flags, "-w", "-fsyntax-only", str(joint.file())], cwd=BUILD, capture_output=True)
-    return run.returncode == 0
-
-
 def fingerprint(joint: Joint) -> str:
     """Hash of everything that a finding can depend on: the preprocessed sources with headers and comments (NOLINT), and the rules.
     Independent of the folder's path."""
@@ -93,21 +87,22 @@ def fingerprint(joint: Joint) -> str:
 
 
 def tidy(joint: Joint) -> list[str]:
-    """The findings in the sources and their headers; empty if clean."""
+    """The findings in the sources and their headers; empty if clean. A joint source with findings is checked again in halves: names of two
+    sources may clash, or one source's overload may take another's arguments. What only sources together have is no finding."""
     if len(joint.sources) > 1:
         joint.file().write_text(joint.text(), encoding="utf-8")
     mark = MARKS / fingerprint(joint)
     if mark.exists():
         mark.touch()
         return []
-    if len(joint.sources) > 1 and not compiles(joint):
-        return [finding for half in joint.halves() for finding in tidy(half)]
     run = subprocess.run(["clang-tidy", "--quiet", f"--config-file={ROOT / '.clang-tidy'}",
                           f"--header-filter=^{ROOT}/({'|'.join(FOLDERS)})/.*[.][hc]pp$", str(joint.file()), "--", *joint.flags,
                           "-w"], cwd=BUILD, capture_output=True, text=True)
     if run.returncode == 0:
         mark.touch()
         return []
+    if len(joint.sources) > 1:
+        return [finding for half in joint.halves() for finding in tidy(half)]
     return [run.stdout or run.stderr]
 
 
