@@ -100,7 +100,7 @@ enum class Fallback : std::uint8_t {
     finger_no_contact,    // a closing digit touches nothing: it bends like its neighbours
     hand_penetrates,      // the fit of a closing penetrates by more than 3 mm: shown penetrating
     body_no_surface,      // the gripped body has no grip mesh: hand shown as tracked
-    palm_no_surface,      // no surface near a gripping palm: hand shown as tracked
+    palm_no_surface,      // a gripping palm has no near surface in sight: shown as a fist
     // Authored grips.
     authored_grip_occupied,  // another hand is in the grip: the next best grip or surface is used
     // An obstacle is between hand and grip: the next best grip or surface is used.

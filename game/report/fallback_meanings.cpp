@@ -85,7 +85,7 @@ constexpr EnumTexts<Fallback> k_meanings = {{
     {Fallback::body_no_surface,
      "A gripped body has no surface for hands; the hand is shown as tracked."},
     {Fallback::palm_no_surface,
-     "A gripping hand had nothing under its palm; it is shown as tracked."},
+     "A gripping hand had nothing in sight under its palm; it is a fist."},
     {Fallback::authored_grip_occupied,
      "Another hand occupied the authored grip; the hand took the next best."},
     {Fallback::authored_grip_blocked,

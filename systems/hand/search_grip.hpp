@@ -34,8 +34,9 @@ struct SearchGripIo {
 //    their closed-form costs, while these are below the best full cost. At most
 //    SurfaceCandidates::k_max_count are evaluated.
 //
-// A palm is held where it is tracked if it has no surface, could only lie inside a solid, or would
-// have to cross the gripped mesh out of the player's sight, as seen at the time of the search.
+// A palm has no surface if none is near, or if the best one is inside a solid or out of the
+// player's sight behind the gripped mesh at the time of the search (PalmFitter::is_out_of_sight):
+// it is held where it is tracked, and fit_hands shows a fist on the player's side.
 //
 // A hand searches when its grip begins, when its surroundings have moved by about k_search_step_m,
 // and after k_search_again_m of travel (hand_travel_m). In other frames it keeps what it found,

@@ -62,6 +62,7 @@ TEST_F(RecordedGrips, WristTurnsAsRecordedAndStaysInPlace) {
     EXPECT_EQ(grip.hand, "right");
     EXPECT_GT(grip.wrists.size(), 90U);
     EXPECT_EQ(grip.us.size(), grip.wrists.size());
+    EXPECT_EQ(grip.out_of_sight.size(), grip.wrists.size());
     for (std::size_t i = 0; i < grip.wrists.size(); ++i) {
         EXPECT_LT(grip.wrists[i].position.norm(), 1e-6) << i;
         EXPECT_NEAR(rotation_to_vector(grip.wrists[i].rotation).norm(),

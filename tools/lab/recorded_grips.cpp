@@ -17,6 +17,7 @@
 #include "game/run/spawn.hpp"
 #include "systems/hand/fit_hands.hpp"
 #include "systems/hand/shared/hand_fit.hpp"
+#include "systems/hand/shared/outside_surfaces.hpp"
 #include "systems/rigs/hand_kinematics.hpp"
 #include "tools/lab/exit_status.hpp"
 #include "tools/lab/grip_files.hpp"
@@ -81,12 +82,21 @@ class GripWatch {
         const double since_s = world.grab.at(around->hand).since_s;
         if (!current || current->body != around->body || current->since_s != since_s) {
             current = {grips.size(), around->body, since_s, around->wrist_bs};
-            grips.push_back({recording_, side == 0 ? "left" : "right", {}, {}, {}, {}});
+            grips.push_back({recording_, side == 0 ? "left" : "right", {}, {}, {}, {}, {}});
         }
         const Pose moved = inverse(current->first_bs) * around->wrist_bs;
         grips[current->grip].wrists.push_back(side == 0 ? mirror_hand_pose(moved) : moved);
         grips[current->grip].us.push_back(us);
         take_depths(world, tuning, *around, grips[current->grip]);
+        grips[current->grip].out_of_sight.push_back(
+            is_palm_behind(*around, world.palm_pose.at(around->hand)));
+    }
+
+    static bool is_palm_behind(const HandSurroundings& around, const PalmPose& palm) {
+        const Pose wrist = inverse(around.body_ws) * palm.pose_ws;
+        const Pose wrist_bs = {wrist.position / around.scale, wrist.rotation};
+        return around.eye_bs && is_behind(around.meshes.front(), *around.eye_bs,
+                                          transform_point(wrist_bs, around.rig->palm_center_hs));
     }
 
     static void take_depths(const World& world, const Tuning& tuning,
@@ -149,6 +159,7 @@ std::string line_of(const RecordedGrip& grip) {
                        {"us", grip.us},
                        {"thumb_depth_mm", grip.thumb_depth_mm},
                        {"fingers_depth_mm", grip.fingers_depth_mm},
+                       {"out_of_sight", grip.out_of_sight},
                        {"wrists", std::move(wrists)}};
     return line.dump() + "\n";
 }
@@ -186,7 +197,11 @@ void print_figures(const std::vector<RecordedGrip>& grips) {
     Series warm_us;
     Depths onset_depths;
     Depths held_depths;
+    std::size_t frames = 0;
+    std::size_t hidden = 0;
     for (const RecordedGrip& grip : grips) {
+        frames += grip.out_of_sight.size();
+        hidden += static_cast<std::size_t>(std::ranges::count(grip.out_of_sight, true));
         for (std::size_t i = 0; i < grip.wrists.size(); ++i) {
             (i == 0 ? onset_us : i <= k_thumb_tries ? later_us : warm_us).add(grip.us[i]);
             (i < k_closing_frames ? onset_depths : held_depths).add(grip, i);
@@ -210,6 +225,9 @@ void print_figures(const std::vector<RecordedGrip>& grips) {
     print("a closing hand, us", onset_us);
     onset_depths.print("0.3 s of a grip");
     held_depths.print("later");
+    std::printf("palm out of sight, behind what it grips: %.2f %% of frames\n",
+                100.0 * static_cast<double>(hidden) /
+                    static_cast<double>(std::max<std::size_t>(1, frames)));
 }
 
 }  // namespace
@@ -267,6 +285,9 @@ Result<std::vector<RecordedGrip>> load_recorded_grips(const std::filesystem::pat
         grip.hand = root["hand"].text();
         for (const JsonValue& us : root["us"].items()) {
             grip.us.push_back(us.number(k_not_negative));
+        }
+        for (const JsonValue& hidden : root["out_of_sight"].optional_items()) {
+            grip.out_of_sight.push_back(hidden.flag());
         }
         for (const JsonValue& wrist : root["wrists"].items()) {
             constexpr NumberRange k_range = {-1e7, 1e7, false};

@@ -26,6 +26,8 @@ struct RecordedGrip {
     // One value per frame: how deep the shown hand is in surfaces, at least 0.
     std::vector<double> thumb_depth_mm;
     std::vector<double> fingers_depth_mm;  // the deepest finger
+    // One value per frame: the shown palm is behind the gripped mesh (is_behind).
+    std::vector<bool> out_of_sight;
 };
 
 struct RecordedGripsOptions {

@@ -119,10 +119,30 @@ bool PalmFitter::enters_solid(const FittedPalm& held) const {
     return entered > 0;
 }
 
-bool PalmFitter::disappears(const FittedPalm& held) const {
-    const Vec3 to = palm_in(placed_.pose, *hand_.rig, held.surface.fitted_wrist_bs).center;
-    return hand_.eye_bs && crosses_oddly(placed_.mesh->contact_bvh, palm_.center, to) &&
-           !is_behind(placed_, *hand_.eye_bs, transform_point(placed_.pose, palm_.center));
+bool PalmFitter::is_out_of_sight(const FittedPalm& held) const {
+    if (!hand_.eye_bs) {
+        return false;
+    }
+    const Pose& wrist_bs = held.surface.fitted_wrist_bs;
+    const Vec3 to = palm_in(placed_.pose, *hand_.rig, wrist_bs).center;
+    const bool crosses = crosses_oddly(placed_.mesh->contact_bvh, palm_.center, to);
+    const bool was_behind =
+        is_behind(placed_, *hand_.eye_bs, transform_point(placed_.pose, palm_.center));
+    const bool is_on_the_far_side = crosses != was_behind;
+    return is_on_the_far_side && (crosses || are_tips_behind(wrist_bs));
+}
+
+// The sight is longer for a tip than for the palm, so that a tip is not seen only because it is
+// farther behind the mesh.
+bool PalmFitter::are_tips_behind(const Pose& wrist_bs) const {
+    const Vec3 palm_bs = transform_point(wrist_bs, hand_.rig->palm_center_hs);
+    return std::ranges::all_of(hand_.rig->fingers, [&](const FingerRig& finger) {
+        const auto points_hs = finger_points(finger, coupled_angles(finger, 0.0));
+        const Vec3 tip_bs = transform_point(wrist_bs, points_hs[finger.link_count]);
+        const double sight_m = k_sight_m + (tip_bs - palm_bs).norm();
+        return finger.name == FingerName::thumb ||
+               is_behind(placed_, *hand_.eye_bs, tip_bs, sight_m);
+    });
 }
 
 double PalmFitter::crossing_depth_m(const FittedPalm& held) const {

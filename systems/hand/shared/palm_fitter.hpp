@@ -54,10 +54,11 @@ class PalmFitter {
     // True if the straight path from palm() to the fitted palm enters the first mesh more often
     // than it leaves it, or crosses it more than 32 times.
     bool enters_solid(const FittedPalm& held) const;
-    // True if palm() is not behind the first mesh (is_behind), and the straight path to the fitted
-    // palm crosses the mesh an odd number of times, whatever its winding. False if the eye is
-    // unknown.
-    bool disappears(const FittedPalm& held) const;
+    // True if the fitted palm is on the side of the first mesh that the player does not see, unless
+    // palm() is there too and a tip of the open fingers is in sight. The side is that of palm()
+    // (is_behind), or the other one if the straight path between the palms crosses the mesh an odd
+    // number of times. False if the eye is unknown.
+    bool is_out_of_sight(const FittedPalm& held) const;
     // Returns how deep the palm penetrates surfaces that cross the axis of one of its capsules; 0
     // if none does. For one crossing this is the capsule's radius plus the distance from the
     // crossing to the axis' nearer end. Tests the first crossing from either end, in all of the
@@ -73,6 +74,9 @@ class PalmFitter {
                                                  const GripSurface& last) const;
 
   private:
+    // True if the first mesh hides the tips of all open fingers, without the thumb. Precondition:
+    // the eye is known.
+    bool are_tips_behind(const Pose& wrist_bs) const;
     // Depth of surfaces that cross one capsule's axis.
     double crossing_depth_of(const PalmCapsule& capsule, const Pose& wrist_bs) const;
 

@@ -13,8 +13,8 @@ constexpr double k_max_direct_sync_m = 0.05;
 // A cheaper surface with clearance is good enough: the surroundings are not searched.
 constexpr double k_good_enough_cost_m = 0.02;
 constexpr double k_inside_cost_m = 0.05;  // penalty for a backface inside a solid
-// Penalty for a path into a solid or out of the player's sight; as much as 25 mm of palm
-// penetration.
+// Penalty for a path into a solid, or for a palm out of the player's sight; as much as 25 mm
+// of palm penetration.
 constexpr double k_enters_solid_cost_m = 0.3;
 constexpr double k_penetration_cost = 12.0;  // cost per metre of palm penetration
 constexpr double k_finger_cost = 9.0;        // cost per metre of finger penetration
@@ -126,9 +126,9 @@ SurfaceCandidates::Placement SurfaceCandidates::placement_of(const Candidate& ca
     if (!is_cheaper(held.sync_m + placement.cost_m)) {
         return placement;
     }
-    const bool disappears = fitter_.disappears(held);
-    placement.is_hidden |= disappears;
-    if (disappears || fitter_.enters_solid(held)) {
+    const bool is_out_of_sight = fitter_.is_out_of_sight(held);
+    placement.is_hidden |= is_out_of_sight;
+    if (is_out_of_sight || fitter_.enters_solid(held)) {
         placement.cost_m += k_enters_solid_cost_m;
     }
     return placement;

@@ -16,8 +16,8 @@ namespace handhold {
 //   cost = sync + placement
 //        + (without clearance) 12 * palm penetration + 9 * finger penetration
 // sync is the movement of the fitted, depenetrated palm (FittedPalm::sync_m). placement is the sum
-// of the penalties for backfaces, for palms inside a solid, and for paths into a solid or out of
-// the player's sight. A palm has clearance if it and its open fingers penetrate no deeper than the
+// of the penalties for backfaces, for palms inside a solid or out of the player's sight, and for
+// paths into a solid. A palm has clearance if it and its open fingers penetrate no deeper than the
 // tolerances of palm_fitter.hpp. Candidates are evaluated in the order of their closed-form costs
 // (cost_of), which rarely exceed the full costs, as long as the closed-form cost is below the best
 // full cost.
@@ -46,7 +46,7 @@ class SurfaceCandidates {
     // The penalty `placement` of the class comment.
     struct Placement {
         double cost_m = 0.0;
-        // A palm here would be inside a solid, or would pass a surface that then hides it.
+        // A palm here would be inside a solid or out of sight (PalmFitter::is_out_of_sight).
         bool is_hidden = false;
     };
 

@@ -1,5 +1,7 @@
 #include "systems/hand/shared/outside_surfaces.hpp"
 
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 #include "beam.hpp"
@@ -110,25 +112,60 @@ TEST(OutsideSurfaces, HandInAWallIsShownBeforeIt) {
     }
 }
 
-// Every frame of a grip. A hand at its fit is not moved, and may touch more deeply
-// by the fit's own tolerances.
+// Every frame of a grip, in a closed wall and behind an open one, whatever its winding. A hand at
+// its fit is not moved, and may touch more deeply by the fit's own tolerances.
 TEST(OutsideSurfaces, HandThatBeginsToGripInAWallNeverDisappearsInIt) {
-    const GripMesh block = build_grip_mesh(make_block_mesh());
     const HandRig rig = builtin_hand_rig(HandSide::right);
-    Random random(4904);
-    int with_surface = 0;
-    int without = 0;
-    for (int i = 0; i < 100; ++i) {
-        const Pose wrist = buried_wrist(random, rig, 0.08);
-        SeenHand hand(block, wrist, eye_above(random));
-        for (int frame = 0; frame < 30; ++frame) {
-            hand.frame(k_frame_s);
-            EXPECT_GT(lowest_m(hand), -1e-3) << i << ", frame " << frame;
+    const Mesh sheet = test::make_floor_mesh();
+    const std::array meshes = {make_block_mesh(), sheet, turned_inside_out(sheet)};
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+        const GripMesh wall = build_grip_mesh(meshes[m]);
+        Random random(4904);
+        int fitted = 0;
+        int fitted_from_behind = 0;
+        int fists = 0;
+        for (int i = 0; i < 100; ++i) {
+            const Pose wrist = buried_wrist(random, rig, 0.08);
+            SeenHand hand(wall, wrist, eye_above(random));
+            for (int frame = 0; frame < 30; ++frame) {
+                hand.frame(k_frame_s);
+                EXPECT_GT(lowest_m(hand), -1e-3) << m << ", " << i << ", frame " << frame;
+            }
+            (hand.is_fist() ? fists : fitted) += 1;
+            const bool is_behind = transform_point(wrist, rig.palm_center_hs).y() < 0.0;
+            fitted_from_behind += is_behind && !hand.is_fist() ? 1 : 0;
         }
-        (hand.is_fist() ? without : with_surface) += 1;
+        EXPECT_GT(fitted, 20) << m;
+        EXPECT_GT(fitted_from_behind, 5) << m;
+        EXPECT_GT(fists, 20) << m;
     }
-    EXPECT_GT(with_surface, 20);
-    EXPECT_GT(without, 20);
+}
+
+// A hand behind a sheet holds its rim if a tip of its open fingers is in sight past it. Others are
+// fists: with the fingers away from the rim, or too far from it.
+TEST(OutsideSurfaces, HandBehindASheetHoldsItsRimIfFingersReachPastIt) {
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+    const Quat palm_up = rotation_about(Vec3::UnitZ(), std::numbers::pi);  // fingers along -z
+    const Quat turned_round = rotation_about(Vec3::UnitY(), std::numbers::pi);
+    const Mesh mesh = make_sheet_mesh(0.0);
+    for (const Mesh& wound : {mesh, turned_inside_out(mesh)}) {
+        const GripMesh sheet = build_grip_mesh(wound);
+        Random random(4914);
+        for (int i = 0; i < 100; ++i) {
+            const double x = random.between(-0.2, 0.2);
+            const Vec3 palm(x, -0.03, -1.0 + random.between(0.0, 0.05));
+            const Quat rotation = rotation_from_vector(random.vector(0.2)) * palm_up;
+            const auto is_fist = [&](const Vec3& at, const Quat& turn) {
+                const Vec3 eye = at + Vec3(0.0, 0.6, 0.2);
+                SeenHand hand(sheet, {at - turn * rig.palm_center_hs, turn}, eye);
+                hand.frame(k_frame_s);
+                return hand.is_fist();
+            };
+            EXPECT_FALSE(is_fist(palm, rotation)) << i;
+            EXPECT_TRUE(is_fist(palm + Vec3(0.0, 0.0, 0.05), turned_round * rotation)) << i;
+            EXPECT_TRUE(is_fist(palm + Vec3(0.0, 0.0, 0.3), rotation)) << i;
+        }
+    }
 }
 
 // A fist at its target returns to its tracked wrist at the palm's rate when it lets go, and does
