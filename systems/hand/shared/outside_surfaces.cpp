@@ -99,9 +99,9 @@ Exit exit_of_hand(const HandSurroundings& hand, const HandPose& pose) {
 
 }  // namespace
 
-bool is_behind(const PlacedMesh& placed, const Vec3& eye_bs, const Vec3& point_bs, double sight_m) {
+bool is_behind(const PlacedMesh& placed, const Vec3& eye_bs, const Vec3& point_bs) {
     const Vec3 to_eye = eye_bs - point_bs;
-    const double share = sight_m / std::max(sight_m, to_eye.norm());
+    const double share = k_sight_m / std::max(k_sight_m, to_eye.norm());
     return crosses_oddly(placed.mesh->contact_bvh,
                          inverse_transform_point(placed.pose, point_bs + share * to_eye),
                          inverse_transform_point(placed.pose, point_bs));

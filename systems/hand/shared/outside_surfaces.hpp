@@ -5,13 +5,12 @@
 
 namespace handhold {
 
-// True if a mesh near a point hides it from the eye: the last `sight_m` of the line from the eye to
+// True if a mesh near a point hides it from the eye: the last k_sight_m of the line from the eye to
 // the point cross the mesh an odd number of times. Windings do not matter, and walls need neither
 // be closed nor have a thickness. Crossings farther away do not count. All in the frame
 // of HandSurroundings::wrist_bs.
 inline constexpr double k_sight_m = 0.3;
-bool is_behind(const PlacedMesh& placed, const Vec3& eye_bs, const Vec3& point_bs,
-               double sight_m = k_sight_m);
+bool is_behind(const PlacedMesh& placed, const Vec3& eye_bs, const Vec3& point_bs);
 
 // True if no end of the capsules' axes is behind a mesh, or if the eye is unknown.
 bool is_outside(const HandSurroundings& hand, const HandPose& pose);

@@ -132,16 +132,11 @@ bool PalmFitter::is_out_of_sight(const FittedPalm& held) const {
     return is_on_the_far_side && (crosses || are_tips_behind(wrist_bs));
 }
 
-// The sight is longer for a tip than for the palm, so that a tip is not seen only because it is
-// farther behind the mesh.
 bool PalmFitter::are_tips_behind(const Pose& wrist_bs) const {
-    const Vec3 palm_bs = transform_point(wrist_bs, hand_.rig->palm_center_hs);
     return std::ranges::all_of(hand_.rig->fingers, [&](const FingerRig& finger) {
         const auto points_hs = finger_points(finger, coupled_angles(finger, 0.0));
         const Vec3 tip_bs = transform_point(wrist_bs, points_hs[finger.link_count]);
-        const double sight_m = k_sight_m + (tip_bs - palm_bs).norm();
-        return finger.name == FingerName::thumb ||
-               is_behind(placed_, *hand_.eye_bs, tip_bs, sight_m);
+        return finger.name == FingerName::thumb || is_behind(placed_, *hand_.eye_bs, tip_bs);
     });
 }
 

@@ -74,8 +74,8 @@ class PalmFitter {
                                                  const GripSurface& last) const;
 
   private:
-    // True if the first mesh hides the tips of all open fingers, without the thumb. Precondition:
-    // the eye is known.
+    // True if the tips of all open fingers, without the thumb, are behind the first mesh
+    // (is_behind). Precondition: the eye is known.
     bool are_tips_behind(const Pose& wrist_bs) const;
     // Depth of surfaces that cross one capsule's axis.
     double crossing_depth_of(const PalmCapsule& capsule, const Pose& wrist_bs) const;
